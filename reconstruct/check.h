@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "reconstruct/mesh.h"
+#include "reconstruct/surface.h"
+
+namespace loft {
+
+/// What can be wrong with a mesh that should bound a solid.
+enum class Fault {
+  bad_index,           ///< a face names a vertex that is not there
+  not_finite,          ///< a coordinate is NaN or infinite
+  degenerate_face,     ///< a face without area (exact)
+  boundary_edge,       ///< an edge with one face: the surface is open
+  nonmanifold_edge,    ///< an edge with more than two faces
+  nonmanifold_vertex,  ///< a vertex whose faces form more than one fan
+  inconsistent_edge,   ///< two faces that run along their edge in the same direction
+  inside_out,          ///< a component that faces inwards where it should face outwards, or the reverse
+  self_intersection,   ///< two faces that meet elsewhere than in shared corners and edges (exact)
+};
+
+/// The fault's name as reports print it, for example `boundary_edge`.
+[[nodiscard]] const char* name(Fault fault);
+
+/// One fault and where it is: the faces and vertices that show it.
+struct Finding {
+  Fault fault;
+  std::vector<std::uint32_t> faces;
+  std::vector<std::uint32_t> vertices;
+};
+
+/// All faults of a mesh; empty if it bounds a solid: closed, manifold, oriented, outward, no
+/// degenerate face, no self-intersection. Decisions are exact. Vertices at the same place count as
+/// one for self-intersections (parts may touch where they share corners), not for topology.
+/// Cost: O(n log n) in practice.
+[[nodiscard]] std::vector<Finding> check(const Mesh& mesh);
+[[nodiscard]] std::vector<Finding> check(const Surface& surface);
+
+}  // namespace loft

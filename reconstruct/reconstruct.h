@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "reconstruct/defect.h"
+#include "reconstruct/progress.h"
+#include "reconstruct/slice.h"
+#include "reconstruct/surface.h"
+
+namespace loft {
+
+/// What is inside the contours of one slice.
+enum class Fill {
+  even_odd,  ///< a point enclosed by an odd number of contours: nested contours are holes
+  nonzero,   ///< a point that contours wind around: overlapping ones make their union
+};
+
+/// What closes the first and the last slice.
+enum class Cap {
+  flat,  ///< the region of the slice itself
+  dome,  ///< a rounded end, at most half a slice distance high
+  open,  ///< nothing: the surface ends in the contours
+};
+
+struct Options {
+  Fill fill = Fill::even_odd;
+  Cap cap = Cap::flat;
+  /// Only contours with this label; all contours where not set.
+  std::optional<std::string> label;
+};
+
+/// A surface and what was found and repaired on the way to it.
+struct Reconstruction {
+  Surface surface;
+  std::vector<Defect> repairs;  ///< in the order of slices; none is fatal
+};
+
+/// Thrown by reconstruct() when its Progress asked for it.
+class Cancelled : public Error {
+ public:
+  Cancelled() : Error("cancelled") {}
+};
+
+/// The closed surface through all contours of a stack of slices.
+///
+/// Guarantees, for every input: the surface is closed (unless Cap::open), manifold, oriented
+/// outwards, without degenerate faces and without self-intersections; cut at the height of a slice
+/// it gives that slice's region; every vertex of a clean contour is a vertex of the surface, with
+/// the same coordinates. The result depends on the set of slices and contours, not on their order.
+///
+/// Slices may come in any order of height; those of equal height are merged. Leading and trailing
+/// empty slices are left out.
+/// Throws InputError with all fatal defects: a coordinate that is not finite, fewer than two
+/// slices with an area.
+/// Cost: O(n log n) for n contour points, in practice; memory in proportion to the result.
+[[nodiscard]] Reconstruction reconstruct(std::span<const Slice> slices, const Options& options = {},
+                                         const Progress& progress = {});
+
+/// The labels in a stack, sorted, each once; a contour without label counts as "".
+[[nodiscard]] std::vector<std::string> labels(std::span<const Slice> slices);
+
+}  // namespace loft
