@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "cdt/point.h"
 
 namespace loft::cdt {
@@ -18,14 +20,16 @@ namespace loft::cdt {
 [[nodiscard]] int orient(Point a, Point b, Point c);
 
 /// Whether d is inside the circle through a, b, c (counter-clockwise): +1 inside, -1 outside,
-/// 0 exactly on it. Laws: an even permutation of the four points keeps the sign, an odd one turns it.
+/// 0 exactly on it. Laws: an even permutation of the four points keeps the sign, an odd one turns
+/// it; 0 if two of the points are equal.
 [[nodiscard]] int in_circle(Point a, Point b, Point c, Point d);
 
 /// in_circle that never answers 0 for four different points, a, b, c counter-clockwise.
 /// Ties are broken as if each point's height on the paraboloid x^2+y^2 were raised by its own
 /// infinitesimal, the lexicographically largest point by far the most (Devillers and Teillaud,
 /// "Perturbations and Vertex Removal in Delaunay Triangulations", 2003). So the answer depends on
-/// the coordinates alone, and every point set has one Delaunay triangulation.
+/// the coordinates alone, and every point set has one Delaunay triangulation. Laws: as in_circle;
+/// 0 if two of the points are equal or all four are in one line.
 [[nodiscard]] int in_circle_perturbed(Point a, Point b, Point c, Point d);
 
 /// Whether the open segments ab and cd cross in one point that is inside both (exact).
@@ -35,5 +39,63 @@ namespace loft::cdt {
 /// the result does not depend on the order of a and b, of c and d, or of the two lines.
 /// Precondition: the lines are not parallel.
 [[nodiscard]] Point intersection(Point a, Point b, Point c, Point d);
+
+namespace detail {
+
+/// The largest relative error of one rounded operation.
+inline constexpr double rounding = 0x1p-53;
+
+// The filters all use the same argument. A determinant is a sum of products of coordinate
+// differences. Computed as below, each such product goes through at most n roundings (from its
+// differences up to the last sum), so it enters with a relative error of at most
+// n * rounding / (1 - n * rounding), and the determinant is off by at most that much times the sum
+// of the products' absolute values, their `magnitude`. The magnitude's own rounding, and that of
+// the bound, are of second order: less than one more `rounding`. Hence (n + 1) * rounding.
+
+/// Two differences, product, sum: 4 roundings.
+inline constexpr double orient_bound = 5 * rounding;
+/// Four differences, square, sum of squares, product, difference of products, product of both,
+/// two sums: 11 roundings.
+inline constexpr double in_circle_bound = 12 * rounding;
+
+/// The predicates without filter.
+[[nodiscard]] int orient_exact(Point a, Point b, Point c);
+[[nodiscard]] int in_circle_exact(Point a, Point b, Point c, Point d);
+/// in_circle_perturbed for four points of which in_circle says 0.
+[[nodiscard]] int break_tie(Point a, Point b, Point c, Point d);
+
+}  // namespace detail
+
+inline int orient(Point a, Point b, Point c) {
+  const double left = (a.x - c.x) * (b.y - c.y);
+  const double right = (a.y - c.y) * (b.x - c.x);
+  const double determinant = left - right;
+  const double bound = detail::orient_bound * (std::abs(left) + std::abs(right));
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return detail::orient_exact(a, b, c);
+}
+
+inline int in_circle(Point a, Point b, Point c, Point d) {
+  const double ax = a.x - d.x, ay = a.y - d.y, a_lift = ax * ax + ay * ay;
+  const double bx = b.x - d.x, by = b.y - d.y, b_lift = bx * bx + by * by;
+  const double cx = c.x - d.x, cy = c.y - d.y, c_lift = cx * cx + cy * cy;
+  const double bc = bx * cy, cb = cx * by;
+  const double ca = cx * ay, ac = ax * cy;
+  const double ab = ax * by, ba = bx * ay;
+  const double determinant = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
+  const double magnitude = a_lift * (std::abs(bc) + std::abs(cb)) +
+                           b_lift * (std::abs(ca) + std::abs(ac)) +
+                           c_lift * (std::abs(ab) + std::abs(ba));
+  const double bound = detail::in_circle_bound * magnitude;
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  return detail::in_circle_exact(a, b, c, d);
+}
+
+inline int in_circle_perturbed(Point a, Point b, Point c, Point d) {
+  const int side = in_circle(a, b, c, d);
+  return side != 0 ? side : detail::break_tie(a, b, c, d);
+}
 
 }  // namespace loft::cdt

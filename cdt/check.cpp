@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#include "cdt/check.h"
+
+#include <sstream>
+
+#include "cdt/predicates.h"
+
+namespace loft::cdt {
+
+namespace {
+
+using Findings = std::vector<Finding>;
+
+template <class... Words>
+void report(Findings& findings, Fault fault, EdgeId e, const Words&... words) {
+  std::ostringstream message;
+  (message << ... << words);
+  findings.push_back({fault, e, SegmentId::none(), message.str()});
+}
+
+void check_topology(const Triangulation& mesh, Findings& findings) {
+  for (std::uint32_t i = 0; i < mesh.edge_count(); ++i) {
+    const EdgeId e(i);
+    const EdgeId f = mesh.twin(e);
+    if (f.index() >= mesh.edge_count() || mesh.twin(f) != e) {
+      report(findings, Fault::topology, e, "the twin of ", e, " is ", f, ", not the reverse");
+    } else if (mesh.from(f) != mesh.to(e) || mesh.to(f) != mesh.from(e)) {
+      report(findings, Fault::topology, e, e, " and its twin join different vertices");
+    } else if (mesh.passages(e).size() != mesh.passages(f).size() ||
+               !std::ranges::equal(mesh.passages(e), mesh.passages(f))) {
+      report(findings, Fault::topology, e, e, " and its twin have different passages");
+    }
+  }
+  if (mesh.vertex_count() < 2) return;
+  for (std::uint32_t v = 0; v <= mesh.vertex_count(); ++v) {
+    const EdgeId e = mesh.edge(VertexId(v));
+    if (e.index() >= mesh.edge_count() || mesh.from(e) != VertexId(v))
+      report(findings, Fault::topology, e, "the edge of ", VertexId(v), " starts elsewhere");
+  }
+  if (mesh.triangle_count() != 2 * mesh.vertex_count() - 2)
+    report(findings, Fault::topology, EdgeId::none(), mesh.triangle_count(), " triangles for ",
+           mesh.vertex_count(), " vertices");
+}
+
+void check_orientation(const Triangulation& mesh, Findings& findings) {
+  for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
+    const EdgeId e = Triangulation::edge(TriangleId(i));
+    if (mesh.is_infinite(TriangleId(i))) continue;
+    if (orient(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), mesh.point(mesh.apex(e))) <= 0)
+      report(findings, Fault::inverted, e, TriangleId(i), " is not counter-clockwise");
+  }
+  // The hull, clockwise: the finite edges of the infinite triangles.
+  for (std::uint32_t i = 0; i < mesh.edge_count(); ++i) {
+    const EdgeId e(i);
+    if (mesh.apex(e) != Triangulation::infinite) continue;
+    const EdgeId ahead = Triangulation::next(mesh.twin(Triangulation::next(e)));
+    if (orient(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), mesh.point(mesh.to(ahead))) > 0)
+      report(findings, Fault::inverted, e, "the hull is not convex at ", mesh.to(e));
+  }
+}
+
+void check_delaunay(const Triangulation& mesh, Findings& findings) {
+  for (std::uint32_t i = 0; i < mesh.edge_count(); ++i) {
+    const EdgeId e(i);
+    const EdgeId f = mesh.twin(e);
+    if (f < e || mesh.is_constrained(e) || mesh.is_infinite(Triangulation::triangle(e)) ||
+        mesh.is_infinite(Triangulation::triangle(f)))
+      continue;
+    if (in_circle_perturbed(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)),
+                            mesh.point(mesh.apex(e)), mesh.point(mesh.apex(f))) > 0)
+      report(findings, Fault::delaunay, e, e, " is not Delaunay");
+  }
+}
+
+void check_cover(const Triangulation& mesh, Findings& findings) {
+  for (std::uint32_t i = 0; i < mesh.segment_count(); ++i) {
+    const SegmentId s(i);
+    const Segment& segment = mesh.segment(s);
+    if (segment.from == segment.to) continue;
+    const auto pieces = mesh.pieces(s);
+    if (!pieces.empty() && mesh.to(pieces.back()) == segment.to) continue;
+    std::ostringstream message;
+    message << s << " from " << segment.from << " to " << segment.to << " ends after "
+            << pieces.size() << " pieces";
+    findings.push_back({Fault::uncovered, EdgeId::none(), s, message.str()});
+  }
+}
+
+}  // namespace
+
+std::vector<Finding> check(const Triangulation& mesh) {
+  Findings findings;
+  check_topology(mesh, findings);
+  if (!findings.empty()) return findings;
+  check_orientation(mesh, findings);
+  check_delaunay(mesh, findings);
+  check_cover(mesh, findings);
+  return findings;
+}
+
+}  // namespace loft::cdt

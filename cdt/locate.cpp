@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "cdt/predicates.h"
+#include "cdt/triangulation.h"
+
+namespace loft::cdt {
+
+/// A stochastic visibility walk (Devillers, Pion, Teillaud, "Walking in a Triangulation", 2002):
+/// leave a triangle through an edge that has the point on its other side; of two such edges, now
+/// one, now the other, so that it ends in any triangulation.
+Location Triangulation::locate(Point p, EdgeId hint) const {
+  if (edges_.empty()) return {};
+  EdgeId e = hint.is_none() || hint.index() >= edges_.size() ? EdgeId(0) : hint;
+  if (is_flat_) return locate_flat(p, e);
+
+  if (is_infinite(triangle(e))) {
+    while (apex(e) != infinite) e = next(e);
+    e = twin(e);
+  }
+  std::uint32_t dice = 0x2545'f491;
+  bool entered = false;  // e is the edge through which the walk came in: p is not beyond it
+  for (;;) {
+    const EdgeId one = (dice & 1) != 0 ? next(e) : prev(e);
+    const EdgeId other = (dice & 1) != 0 ? prev(e) : next(e);
+    dice = dice * 1664525 + 1013904223;
+    dice ^= dice >> 16;
+    const auto is_beyond = [&](EdgeId side) {
+      return orient(point(from(side)), point(to(side)), p) < 0;
+    };
+    EdgeId exit;
+    if (is_beyond(one)) {
+      exit = one;
+    } else if (is_beyond(other)) {
+      exit = other;
+    } else if (!entered && is_beyond(e)) {
+      exit = e;
+    } else {
+      return settle(p, e);
+    }
+    e = twin(exit);
+    entered = true;
+    if (apex(e) == infinite) return {Location::Kind::outside, e};
+  }
+}
+
+/// p is in the closed triangle left of e: inside, on which edge, or on which corner?
+Location Triangulation::settle(Point p, EdgeId e) const {
+  const auto is_on = [&](EdgeId side) {
+    return orient(point(from(side)), point(to(side)), p) == 0;
+  };
+  for (const EdgeId side : {e, next(e), prev(e)})
+    if (point(from(side)) == p) return {Location::Kind::vertex, side};
+  for (const EdgeId side : {e, next(e), prev(e)})
+    if (is_on(side)) return {Location::Kind::edge, side};
+  return {Location::Kind::triangle, e};
+}
+
+/// While all vertices are in one line, the infinite triangles beside it form a ring: once along
+/// the line on its left, once back on its right.
+Location Triangulation::locate_flat(Point p, EdgeId e) const {
+  while (apex(e) != infinite) e = next(e);
+  const int side = orient(point(from(e)), point(to(e)), p);
+  if (side != 0) return {Location::Kind::outside, side > 0 ? e : twin(e)};
+
+  if ((point(from(e)) < point(to(e))) != (point(from(e)) < p)) e = twin(e);
+  for (;;) {  // p is at from(e) or ahead
+    if (point(from(e)) == p) return {Location::Kind::vertex, e};
+    if (point(to(e)) == p) return {Location::Kind::vertex, next(e)};
+    const bool is_inside = (point(from(e)) < p) == (p < point(to(e)));
+    if (is_inside) return {Location::Kind::edge, e};
+    const EdgeId ahead = next(twin(next(e)));  // the ring's next edge that is not to infinity
+    if (ahead == twin(e)) return {Location::Kind::outside, next(e)};
+    e = ahead;
+  }
+}
+
+}  // namespace loft::cdt
