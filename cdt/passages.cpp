@@ -59,8 +59,8 @@ PassageSet PassageSets::intern(std::span<const Passage> wanted) {
     slot = (slot + 1) & mask;
   if (table_[slot] == free_slot) {
     table_[slot] = static_cast<std::uint32_t>(stored_.size());
-    stored_.push_back({static_cast<std::uint32_t>(members_.size()),
-                       static_cast<std::uint32_t>(wanted.size())});
+    stored_.push_back(
+        {static_cast<std::uint32_t>(members_.size()), static_cast<std::uint32_t>(wanted.size())});
     members_.insert(members_.end(), wanted.begin(), wanted.end());
   }
   return PassageSet(Passage(SegmentId(PassageSet::first_stored_segment + table_[slot]), false));

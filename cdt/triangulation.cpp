@@ -11,8 +11,8 @@ namespace loft::cdt {
 
 void Triangulation::clear() {
   edges_.clear();
-  points_.assign(1, Point{std::numeric_limits<double>::infinity(),
-                          std::numeric_limits<double>::infinity()});
+  points_.assign(
+      1, Point{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
   vertex_edges_.assign(1, EdgeId::none());
   constraints_.clear();
   segments_.clear();
@@ -275,10 +275,10 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
     const bool upward = !set.is_empty() && point(low) < point(high);
     return upward == was_upward ? set : sets_.reversed(set);
   };
-  link(edge(parts[0], 2), edge(parts[1], 1));                 // v-c
-  link(edge(parts[1], 2), edge(parts[2], 1), half(v, b));     // v-b
-  link(edge(parts[2], 2), edge(parts[3], 1));                 // v-d
-  link(edge(parts[3], 2), edge(parts[0], 1), half(a, v));     // v-a
+  link(edge(parts[0], 2), edge(parts[1], 1));              // v-c
+  link(edge(parts[1], 2), edge(parts[2], 1), half(v, b));  // v-b
+  link(edge(parts[2], 2), edge(parts[3], 1));              // v-d
+  link(edge(parts[3], 2), edge(parts[0], 1), half(a, v));  // v-a
   vertex_edges_[v.index()] = edge(parts[0], 2);
   fan_out(v);
 }

@@ -1,37 +1,17 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "reconstruct/defect.h"
+#include "reconstruct/options.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"
 #include "reconstruct/surface.h"
 
 namespace loft {
-
-/// What is inside the contours of one slice.
-enum class Fill {
-  even_odd,  ///< a point enclosed by an odd number of contours: nested contours are holes
-  nonzero,   ///< a point that contours wind around: overlapping ones make their union
-};
-
-/// What closes the first and the last slice.
-enum class Cap {
-  flat,  ///< the region of the slice itself
-  dome,  ///< a rounded end, at most half a slice distance high
-  open,  ///< nothing: the surface ends in the contours
-};
-
-struct Options {
-  Fill fill = Fill::even_odd;
-  Cap cap = Cap::flat;
-  /// Only contours with this label; all contours where not set.
-  std::optional<std::string> label;
-};
 
 /// A surface and what was found and repaired on the way to it.
 struct Reconstruction {

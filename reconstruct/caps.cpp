@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/caps.h"
+
+#include "cdt/regions.h"
+
+namespace loft {
+
+std::vector<std::array<std::uint32_t, 3>> flat_cap(const Region& region) {
+  cdt::Triangulation mesh;
+  mesh.reserve(region.points.size());
+  insert_loops(region, mesh);
+  std::vector<std::uint32_t> index(mesh.vertex_count() + 1, Origin::none);
+  for (std::uint32_t s = 0; s < mesh.segment_count(); ++s)
+    index[mesh.segment(cdt::SegmentId(s)).from.index()] = region.loop_vertices[s];
+
+  std::vector<std::array<std::uint32_t, 3>> triangles;
+  const auto is_inside = cdt::odd_parity(mesh);
+  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+    if (!is_inside[t]) continue;
+    const cdt::EdgeId e = cdt::Triangulation::edge(cdt::TriangleId(t));
+    triangles.push_back(
+        {index[mesh.from(e).index()], index[mesh.to(e).index()], index[mesh.apex(e).index()]});
+  }
+  return triangles;
+}
+
+}  // namespace loft

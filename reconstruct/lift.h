@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "reconstruct/mesh.h"
+#include "reconstruct/slab.h"
+
+namespace loft {
+
+/// A vertex of a slab's tiles that is not a contour vertex.
+struct InnerVertex {
+  Vec3 place;
+  VertexKind kind;
+};
+
+/// The heights of a slab's overlay over its sheets: which vertex of the tiles is above or below
+/// each corner of a sheet triangle (design, section 3, steps 2 and 3).
+///
+/// Nodes, the vertices of the tiles, are numbered: first the points of the lower region, then
+/// those of the upper one, then the inner vertices. After lifting no sheet triangle touches a slice
+/// plane except in contour vertices and contour edges of that slice.
+class Lift {
+ public:
+  /// Lifts; inserts Steiner vertices into the slab's overlay.
+  explicit Lift(Slab& slab);
+
+  /// The node at from(corner), seen from the sheet triangle left of it.
+  [[nodiscard]] std::uint32_t node(cdt::EdgeId corner) const;
+  /// The node of an overlay vertex beside which there is no sheet.
+  [[nodiscard]] std::uint32_t node(cdt::VertexId v) const;
+  /// The node of a contour vertex.
+  [[nodiscard]] std::uint32_t node(std::uint32_t point, Level level) const {
+    return level == Level::lower ? point : lower_count_ + point;
+  }
+  [[nodiscard]] const std::vector<InnerVertex>& inner() const { return inner_; }
+
+ private:
+  enum class Height : std::uint8_t { undecided, lower, upper, between };
+  /// The sheet triangles around a column between two contour edges.
+  struct Wedge {
+    cdt::EdgeId first;  // contour edge on its right
+    cdt::EdgeId last;   // contour edge on its left
+  };
+  /// A Steiner vertex to be: on the edge between the first two corners, or, if there is a third
+  /// one, in their triangle.
+  struct Steiner {
+    cdt::Point place;
+    double z;
+    cdt::VertexId corners[3];
+  };
+
+  [[nodiscard]] static Height height(Level level) {
+    return level == Level::lower ? Height::lower : Height::upper;
+  }
+  [[nodiscard]] Height height(cdt::EdgeId corner) const;
+  [[nodiscard]] std::vector<Wedge> wedges(cdt::VertexId column) const;
+  [[nodiscard]] Level choose(const Wedge& wedge) const;
+  [[nodiscard]] int chords(const Wedge& wedge, Level level) const;
+  void set_heights(const Wedge& wedge, Level level);
+  void decide_columns();
+  void restore_columns();
+  void lift_crossings();
+  [[nodiscard]] std::vector<Steiner> find_chords() const;
+  bool raise_chords();
+  void add_inner(cdt::VertexId v, double z, VertexKind kind);
+  [[nodiscard]] bool is_chord(cdt::EdgeId e) const;
+  [[nodiscard]] bool is_flat(cdt::EdgeId e) const;
+  std::optional<cdt::VertexId> split(const Steiner& steiner);
+
+  Slab& slab_;
+  const cdt::Triangulation& mesh_;
+  std::uint32_t lower_count_;
+  std::vector<InnerVertex> inner_;
+  std::vector<std::uint32_t> inner_index_;  // of each overlay vertex, or Origin::none
+  std::vector<cdt::VertexId> columns_;      // in the order of their places
+  std::vector<Height> column_heights_;      // of each corner at a column
+  std::map<std::pair<cdt::VertexId, cdt::SegmentId>, Level> choices_;  // by a wedge's first edge
+};
+
+}  // namespace loft

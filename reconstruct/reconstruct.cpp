@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/reconstruct.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "reconstruct/region.h"
+#include "reconstruct/sew.h"
+#include "reconstruct/tiles.h"
+
+namespace loft {
+
+namespace {
+
+/// All contours at one height.
+struct Layer {
+  double z;
+  std::uint32_t slice;  // the first of the input's slices at this height
+  std::vector<ContourSource> contours;
+};
+
+std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
+  std::vector<Defect> found;
+  for (std::uint32_t s = 0; s < slices.size(); ++s) {
+    const Slice& slice = slices[s];
+    if (!std::isfinite(slice.z))
+      found.push_back({DefectKind::not_finite,
+                       slice.z,
+                       s,
+                       {},
+                       {},
+                       {},
+                       0,
+                       "the height is not a finite number; give it one or leave the slice out"});
+    for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
+      const auto& points = slice.contours[c].points;
+      for (std::uint32_t p = 0; p < points.size(); ++p)
+        if (!std::isfinite(points[p].x) || !std::isfinite(points[p].y))
+          found.push_back({DefectKind::not_finite,
+                           slice.z,
+                           s,
+                           c,
+                           p,
+                           {},
+                           0,
+                           "a coordinate is not a finite number; correct the point or leave it "
+                           "out"});
+    }
+  }
+  return found;
+}
+
+/// The slices by height, those of equal height as one.
+std::vector<Layer> find_layers(std::span<const Slice> slices,
+                               const std::optional<std::string>& label,
+                               std::vector<Defect>& repairs) {
+  std::vector<std::uint32_t> order(slices.size());
+  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return slices[i].z; });
+  std::vector<Layer> layers;
+  for (const std::uint32_t s : order) {
+    const Slice& slice = slices[s];
+    if (layers.empty() || layers.back().z != slice.z) {
+      layers.push_back({slice.z, s, {}});
+    } else {
+      repairs.push_back({DefectKind::merged_slices,
+                         slice.z,
+                         s,
+                         {},
+                         {},
+                         {},
+                         0,
+                         "has the same height as slice " + std::to_string(layers.back().slice) +
+                             "; merged into it"});
+    }
+    for (std::uint32_t c = 0; c < slice.contours.size(); ++c)
+      if (!label || slice.contours[c].label == *label)
+        layers.back().contours.push_back({slice.contours[c].points, s, c});
+  }
+  return layers;
+}
+
+/// Leaves out the empty regions at both ends; those between are where the shape is interrupted.
+std::vector<Region> trim(std::vector<Region> regions, std::vector<Defect>& repairs) {
+  const auto is_filled = [](const Region& region) { return !region.is_empty(); };
+  const auto first = std::ranges::find_if(regions, is_filled);
+  const auto last = std::find_if(regions.rbegin(), regions.rend(), is_filled).base();
+  if (first >= last) return {};
+  std::vector<Region> kept(std::make_move_iterator(first), std::make_move_iterator(last));
+  for (const Region& region : kept)
+    if (region.is_empty())
+      repairs.push_back({DefectKind::empty_slice,
+                         region.z,
+                         region.slice,
+                         {},
+                         {},
+                         {},
+                         0,
+                         "is empty: the shape ends below it and starts again above; remove the "
+                         "slice if it should go on"});
+  return kept;
+}
+
+/// For Cap::dome: an empty slice one gap beyond each end, into which the shape rounds off.
+void add_beyond_ends(std::vector<Region>& regions) {
+  const auto beyond = [](const Region& end, const Region& before) {
+    Region region;
+    region.z = end.z + (end.z - before.z);
+    region.slice = Origin::none;
+    region.loop_starts = {0};
+    return region;
+  };
+  const Region low = beyond(regions[0], regions[1]);
+  const Region high = beyond(regions[regions.size() - 1], regions[regions.size() - 2]);
+  regions.insert(regions.begin(), low);
+  regions.push_back(high);
+}
+
+class Reporter {
+ public:
+  Reporter(const Progress& progress, Stage stage, std::size_t steps)
+      : progress_(progress), stage_(stage), steps_(steps) {
+    report(0);
+  }
+  void report(std::size_t done) const {
+    const double fraction =
+        steps_ == 0 ? 1 : static_cast<double>(done) / static_cast<double>(steps_);
+    if (progress_ && !progress_(stage_, fraction)) throw Cancelled();
+  }
+
+ private:
+  const Progress& progress_;
+  Stage stage_;
+  std::size_t steps_;
+};
+
+std::vector<Region> clean_all(const std::vector<Layer>& layers, Fill fill,
+                              std::vector<Defect>& repairs, const Progress& progress) {
+  const Reporter reporter(progress, Stage::clean, layers.size());
+  std::vector<Region> regions;
+  for (const Layer& layer : layers) {
+    regions.push_back(clean(layer.contours, layer.z, fill, repairs));
+    regions.back().slice = layer.slice;
+    reporter.report(regions.size());
+  }
+  return regions;
+}
+
+std::vector<TileSet> tile_all(const std::vector<Region>& regions, const Progress& progress) {
+  const Reporter reporter(progress, Stage::tile, regions.size() - 1);
+  std::vector<TileSet> slabs;
+  for (std::size_t i = 0; i + 1 < regions.size(); ++i) {
+    slabs.push_back(tile(regions[i], regions[i + 1]));
+    reporter.report(slabs.size());
+  }
+  return slabs;
+}
+
+void check_enough(std::span<const Region> regions) {
+  const auto filled =
+      std::ranges::count_if(regions, [](const Region& region) { return !region.is_empty(); });
+  if (filled >= 2) return;
+  Defect defect{DefectKind::too_few_slices, 0, 0, {}, {}, {}, 0, ""};
+  if (filled == 1) {
+    const auto only =
+        std::ranges::find_if(regions, [](const Region& region) { return !region.is_empty(); });
+    defect.z = only->z;
+    defect.slice = only->slice;
+    defect.message =
+        "is the only one with an outline; a surface needs two. For a flat part, give its outline a "
+        "second time at the height where it ends";
+  } else {
+    defect.message = "no slice has an outline with an area";
+  }
+  throw InputError({defect});
+}
+
+}  // namespace
+
+Reconstruction reconstruct(std::span<const Slice> slices, const Options& options,
+                           const Progress& progress) {
+  if (auto fatal = find_not_finite(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  Reconstruction result;
+  const auto layers = find_layers(slices, options.label, result.repairs);
+  auto regions = trim(clean_all(layers, options.fill, result.repairs, progress), result.repairs);
+  check_enough(regions);
+  if (options.cap == Cap::dome) add_beyond_ends(regions);
+  const auto slabs = tile_all(regions, progress);
+  const Reporter sewing(progress, Stage::sew, 1);
+  result.surface = sew(regions, slabs, options.cap);
+  sewing.report(1);
+  return result;
+}
+
+std::vector<std::string> labels(std::span<const Slice> slices) {
+  std::set<std::string> found;
+  for (const Slice& slice : slices)
+    for (const Contour& contour : slice.contours) found.insert(contour.label);
+  return {found.begin(), found.end()};
+}
+
+}  // namespace loft

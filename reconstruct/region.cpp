@@ -1,0 +1,324 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/region.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "cdt/predicates.h"
+#include "cdt/regions.h"
+
+namespace loft {
+
+namespace {
+
+using cdt::EdgeId;
+using cdt::Point;
+using cdt::Triangulation;
+using cdt::VertexId;
+
+/// A contour without points given twice in a row, in an order that does not depend on where it
+/// starts and which way round it goes.
+std::vector<Point> normal_form(std::span<const Point> points) {
+  std::vector<Point> ring;
+  for (const Point p : points)
+    if (ring.empty() || ring.back() != p) ring.push_back(p);
+  while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
+  std::vector<Point> best;
+  for (int direction = 0; direction < 2; ++direction) {
+    std::ranges::rotate(ring, std::ranges::min_element(ring));
+    if (best.empty() || ring < best) best = ring;
+    std::ranges::reverse(ring);
+  }
+  return best;
+}
+
+bool are_in_line(std::span<const Point> points) {
+  const auto [low, high] = std::ranges::minmax(points);
+  return std::ranges::all_of(points, [&](Point p) { return cdt::orient(low, high, p) == 0; });
+}
+
+/// The cleaning of one slice, stage by stage.
+class Cleaning {
+ public:
+  Cleaning(std::span<const ContourSource> contours, double z, Fill fill,
+           std::vector<Defect>& repairs)
+      : contours_(contours), z_(z), fill_(fill), repairs_(repairs) {}
+
+  Region run() {
+    choose_contours();
+    insert();
+    find_inside();
+    report_crossings();
+    report_overlaps();
+    return follow_loops();
+  }
+
+ private:
+  Defect& report(DefectKind kind, std::uint32_t contour, std::string message) {
+    const ContourSource& source = contours_[contour];
+    repairs_.push_back({kind, z_, source.slice, source.contour, {}, {}, 0, std::move(message)});
+    return repairs_.back();
+  }
+
+  void choose_contours() {
+    std::map<std::vector<Point>, std::uint32_t> seen;
+    for (std::uint32_t i = 0; i < contours_.size(); ++i) {
+      std::vector<Point> ring = normal_form(contours_[i].points);
+      if (ring.empty() || are_in_line(ring)) {
+        report_degenerate(i, ring);
+      } else if (const auto [other, is_new] = seen.try_emplace(std::move(ring), i); !is_new) {
+        report(DefectKind::repeated_contour, i,
+               "is the same as contour " + std::to_string(contours_[other->second].contour) +
+                   "; one copy dropped")
+            .place = other->first.front();
+      } else {
+        chosen_.push_back(i);
+      }
+    }
+  }
+
+  void report_degenerate(std::uint32_t contour, const std::vector<Point>& ring) {
+    const std::size_t places = std::set<Point>(ring.begin(), ring.end()).size();
+    Defect& defect =
+        places < 3 ? report(DefectKind::too_few_points, contour,
+                            "has " + std::to_string(places) +
+                                " different points, an outline needs 3; dropped")
+                   : report(DefectKind::zero_area, contour, "all points are in one line; dropped");
+    if (!ring.empty()) defect.place = ring.front();
+  }
+
+  void insert() {
+    std::size_t count = 0;
+    for (const std::uint32_t i : chosen_) count += contours_[i].points.size();
+    mesh_.reserve(count);
+    for (const std::uint32_t i : chosen_) mesh_.insert(contours_[i].points, cdt::closed);
+    note_sources();
+  }
+
+  /// Which input point each vertex is; the first one where there are several.
+  void note_sources() {
+    origins_.assign(mesh_.vertex_count() + 1,
+                    Origin{VertexKind::cleaning, Origin::none, Origin::none, Origin::none});
+    std::vector<bool> is_visited_again(mesh_.vertex_count() + 1);
+    for (std::uint32_t c = 0; c < chosen_.size(); ++c) {
+      const ContourSource& source = contours_[chosen_[c]];
+      const auto segments = mesh_.segments(cdt::ConstraintId(c));
+      std::uint32_t repeated = 0;
+      for (std::uint32_t i = 0; i < segments.size(); ++i) {
+        Origin& origin = origins_[segments[i].from.index()];
+        const bool is_closing = i + 1 == segments.size();
+        if (segments[i].from == segments[i].to && !is_closing) ++repeated;
+        if (origin.contour != Origin::none) continue;
+        origin = {VertexKind::contour, source.slice, source.contour, i};
+      }
+      if (repeated != 0)
+        report(DefectKind::repeated_point, chosen_[c],
+               std::to_string(repeated) + " points given twice in a row; kept once");
+    }
+  }
+
+  void find_inside() {
+    if (fill_ == Fill::even_odd) {
+      is_inside_ = cdt::odd_parity(mesh_);
+    } else {
+      const auto windings = cdt::winding_numbers(mesh_);
+      is_inside_.resize(windings.size());
+      for (std::size_t t = 0; t < windings.size(); ++t) is_inside_[t] = windings[t] != 0;
+    }
+  }
+
+  [[nodiscard]] bool is_inside(EdgeId e) const {
+    return is_inside_[Triangulation::triangle(e).index()];
+  }
+  /// Whether the region is on the left of e and not on its right.
+  [[nodiscard]] bool is_boundary(EdgeId e) const {
+    return is_inside(e) && !is_inside(mesh_.twin(e));
+  }
+
+  [[nodiscard]] std::uint32_t contour_of(cdt::Passage passage) const {
+    return chosen_[mesh_.segment(passage.segment()).constraint.index()];
+  }
+
+  /// One report for each contour, or pair of contours, that cross: the first place and how many.
+  void report_crossings() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<VertexId, std::size_t>> found;
+    for (std::uint32_t i = 1; i <= mesh_.vertex_count(); ++i) {
+      if (origins_[i].kind == VertexKind::contour) continue;
+      std::set<std::uint32_t> around;
+      const EdgeId first = mesh_.edge(VertexId(i));
+      EdgeId e = first;
+      do {
+        for (const cdt::Passage passage : mesh_.passages(e)) around.insert(contour_of(passage));
+        e = mesh_.rotated(e);
+      } while (e != first);
+      ++found.try_emplace({*around.begin(), *around.rbegin()}, VertexId(i), 0).first->second.second;
+    }
+    for (const auto& [pair, crossings] : found) {
+      const auto& [place, count] = crossings;
+      const std::string times = count == 1 ? "" : " " + std::to_string(count) + " times";
+      const std::string rule = fill_ == Fill::even_odd
+                                   ? "; parts enclosed twice are outside (--fill even-odd); "
+                                     "--fill nonzero keeps them"
+                                   : "; parts that it winds around are inside (--fill nonzero)";
+      Defect& defect =
+          pair.first == pair.second
+              ? report(DefectKind::self_crossing, pair.first, "crosses itself" + times + rule)
+              : report(DefectKind::overlap, pair.second,
+                       "crosses contour " + std::to_string(contours_[pair.first].contour) + times +
+                           rule);
+      defect.place = mesh_.point(place);
+      defect.area = changed_area(pair.first, pair.second);
+    }
+  }
+
+  /// The area that the fill rule decided otherwise than the contours, each taken for itself and
+  /// as one simple outline, would have it.
+  [[nodiscard]] double changed_area(std::uint32_t one, std::uint32_t other) const {
+    const auto windings = cdt::winding_numbers(mesh_, [&](cdt::ConstraintId c) {
+      return chosen_[c.index()] == one || chosen_[c.index()] == other;
+    });
+    double positive = 0;
+    double negative = 0;
+    double multiple = 0;
+    for (std::uint32_t t = 0; t < windings.size(); ++t) {
+      if (windings[t] == 0) continue;
+      const double area = triangle_area(cdt::TriangleId(t));
+      (windings[t] > 0 ? positive : negative) += area;
+      if (std::abs(windings[t]) > 1) multiple += area;
+    }
+    return multiple + (one == other ? std::min(positive, negative) : 0);
+  }
+
+  [[nodiscard]] double triangle_area(cdt::TriangleId t) const {
+    const EdgeId e = Triangulation::edge(t);
+    const Point a = mesh_.point(mesh_.from(e));
+    const Point b = mesh_.point(mesh_.to(e));
+    const Point c = mesh_.point(mesh_.apex(e));
+    return ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
+  }
+
+  /// Edges along which contours run more than once: spikes, and outlines that share a side.
+  void report_overlaps() {
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Point> found;
+    for (std::uint32_t i = 0; i < mesh_.edge_count(); ++i) {
+      const EdgeId e(i);
+      const auto passages = mesh_.passages(e);
+      if (passages.size() < 2 || mesh_.twin(e) < e) continue;
+      const auto pair = std::minmax(contour_of(passages.front()), contour_of(passages.back()));
+      found.try_emplace(pair, mesh_.point(mesh_.from(e)));
+    }
+    for (const auto& [pair, place] : found) {
+      Defect& defect = pair.first == pair.second
+                           ? report(DefectKind::spike, pair.first,
+                                    "runs out and back along the same line; the spike is removed")
+                           : report(DefectKind::touching, pair.second,
+                                    "shares part of its outline with contour " +
+                                        std::to_string(contours_[pair.first].contour));
+      defect.place = place;
+    }
+  }
+
+  /// The next boundary edge with the same inside on its left: around the end of e, through the
+  /// region. So loops that meet in a point do not cross there.
+  [[nodiscard]] EdgeId next_boundary(EdgeId e) const {
+    EdgeId ahead = Triangulation::next(e);
+    while (!is_boundary(ahead)) ahead = Triangulation::next(mesh_.twin(ahead));
+    return ahead;
+  }
+
+  /// A crossing vertex with nothing left to cross: the region's boundary runs straight on.
+  [[nodiscard]] bool is_left_over(EdgeId before, EdgeId after) const {
+    const VertexId v = mesh_.from(after);
+    if (origins_[v.index()].kind == VertexKind::contour) return false;
+    std::size_t boundary_edges = 0;
+    const EdgeId first = mesh_.edge(v);
+    EdgeId e = first;
+    do {
+      boundary_edges += is_boundary(e) ? 1 : 0;
+      e = mesh_.rotated(e);
+    } while (e != first);
+    const auto in = mesh_.passages(before);
+    return boundary_edges == 1 &&
+           std::ranges::any_of(mesh_.passages(after), [&](cdt::Passage passage) {
+             return std::ranges::any_of(
+                 in, [&](cdt::Passage p) { return p.segment() == passage.segment(); });
+           });
+  }
+
+  Region follow_loops() {
+    Region region;
+    region.z = z_;
+    region.slice = contours_.empty() ? 0 : contours_.front().slice;
+    region.loop_starts.push_back(0);
+    std::vector<bool> is_done(mesh_.edge_count());
+    index_.assign(mesh_.vertex_count() + 1, Origin::none);
+    for (std::uint32_t v = 1; v <= mesh_.vertex_count(); ++v) {
+      const EdgeId first = mesh_.edge(VertexId(v));
+      if (first.is_none()) continue;
+      EdgeId e = first;
+      do {
+        if (is_boundary(e) && !is_done[e.index()]) follow_loop(e, is_done, region);
+        e = mesh_.rotated(e);
+      } while (e != first);
+    }
+    return region;
+  }
+
+  void follow_loop(EdgeId start, std::vector<bool>& is_done, Region& region) {
+    EdgeId e = start;
+    do {
+      is_done[e.index()] = true;
+      const EdgeId after = next_boundary(e);
+      if (!is_left_over(e, after))
+        region.loop_vertices.push_back(add_point(mesh_.from(after), region));
+      e = after;
+    } while (e != start);
+    // The walk began with the end of the first edge: let the loop begin with its start.
+    const auto begin =
+        region.loop_vertices.begin() + static_cast<std::ptrdiff_t>(region.loop_starts.back());
+    std::rotate(begin, region.loop_vertices.end() - 1, region.loop_vertices.end());
+    region.loop_starts.push_back(static_cast<std::uint32_t>(region.loop_vertices.size()));
+  }
+
+  std::uint32_t add_point(VertexId v, Region& region) {
+    std::uint32_t& index = index_[v.index()];
+    if (index == Origin::none) {
+      index = static_cast<std::uint32_t>(region.points.size());
+      region.points.push_back(mesh_.point(v));
+      region.origins.push_back(origins_[v.index()]);
+      if (region.origins.back().kind == VertexKind::cleaning)
+        region.origins.back().slice = region.slice;
+    }
+    return index;
+  }
+
+  std::span<const ContourSource> contours_;
+  double z_;
+  Fill fill_;
+  std::vector<Defect>& repairs_;
+  std::vector<std::uint32_t> chosen_;  // contour of each constraint
+  Triangulation mesh_;
+  std::vector<Origin> origins_;       // of each vertex
+  std::vector<bool> is_inside_;       // of each triangle
+  std::vector<std::uint32_t> index_;  // of each vertex, in the region
+};
+
+}  // namespace
+
+Region clean(std::span<const ContourSource> contours, double z, Fill fill,
+             std::vector<Defect>& repairs) {
+  return Cleaning(contours, z, fill, repairs).run();
+}
+
+void insert_loops(const Region& region, cdt::Triangulation& mesh) {
+  std::vector<Point> points;
+  for (std::size_t i = 0; i < region.loop_count(); ++i) {
+    points.clear();
+    for (const std::uint32_t v : region.loop(i)) points.push_back(region.points[v]);
+    mesh.insert(points, cdt::closed);
+  }
+}
+
+}  // namespace loft

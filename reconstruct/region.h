@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cdt/point.h"
+#include "cdt/triangulation.h"
+#include "reconstruct/defect.h"
+#include "reconstruct/options.h"
+#include "reconstruct/origin.h"
+
+namespace loft {
+
+/// What the contours of a slice enclose, by its boundary: loops that neither cross nor overlap
+/// themselves or one another, the region on their left. They may meet in single points.
+struct Region {
+  double z = 0;
+  std::uint32_t slice = 0;                   ///< index of the slice in the input
+  std::vector<cdt::Point> points;            ///< the vertices of the loops, each place once
+  std::vector<Origin> origins;               ///< where each point comes from
+  std::vector<std::uint32_t> loop_vertices;  ///< indices of points, loop after loop
+  std::vector<std::uint32_t> loop_starts;    ///< where each loop starts in them, and their number
+
+  [[nodiscard]] bool is_empty() const { return points.empty(); }
+  [[nodiscard]] std::size_t loop_count() const {
+    return loop_starts.empty() ? 0 : loop_starts.size() - 1;
+  }
+  [[nodiscard]] std::span<const std::uint32_t> loop(std::size_t i) const {
+    return std::span(loop_vertices).subspan(loop_starts[i], loop_starts[i + 1] - loop_starts[i]);
+  }
+};
+
+/// A contour on its way into cleaning: its points, and where it stands in the input.
+struct ContourSource {
+  std::span<const cdt::Point> points;
+  std::uint32_t slice = 0;
+  std::uint32_t contour = 0;
+};
+
+/// Cleans a slice (design, section 3, step 0): contours with no area and copies of others are
+/// dropped; the rest go into a CDT, which is flooded by the fill rule; the edges between inside
+/// and outside make the loops. A slice without faults keeps its vertices, one for one.
+/// What was found is appended to `repairs`. Precondition: finite coordinates.
+[[nodiscard]] Region clean(std::span<const ContourSource> contours, double z, Fill fill,
+                           std::vector<Defect>& repairs);
+
+/// Inserts the loops of a region as constraints, in order: segment i starts at
+/// `loop_vertices[i]`, counted from the first segment that is new.
+void insert_loops(const Region& region, cdt::Triangulation& mesh);
+
+}  // namespace loft

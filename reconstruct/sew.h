@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <span>
+
+#include "reconstruct/options.h"
+#include "reconstruct/region.h"
+#include "reconstruct/surface.h"
+#include "reconstruct/tiles.h"
+
+namespace loft {
+
+/// Sews the tiles of a stack into one surface: `slabs[i]` lies between `regions[i]` and
+/// `regions[i + 1]`. With Cap::flat the first and the last region close it.
+/// Cost: O(n).
+[[nodiscard]] Surface sew(std::span<const Region> regions, std::span<const TileSet> slabs, Cap cap);
+
+}  // namespace loft

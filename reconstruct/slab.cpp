@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/slab.h"
+
+#include <algorithm>
+
+#include "cdt/regions.h"
+
+namespace loft {
+
+Slab::Slab(const Region& lower, const Region& upper) : lower_(lower), upper_(upper) {
+  overlay_.reserve(lower.points.size() + upper.points.size());
+  insert_loops(lower, overlay_);
+  insert_loops(upper, overlay_);
+  note_vertices(Level::lower);
+  note_vertices(Level::upper);
+  refresh();
+}
+
+void Slab::note_vertices(Level level) {
+  const auto& loop_vertices = region(level).loop_vertices;
+  auto& indices = level == Level::lower ? lower_index_ : upper_index_;
+  indices.assign(overlay_.vertex_count() + 1, Origin::none);
+  const std::size_t first = level == Level::lower ? 0 : lower_.loop_vertices.size();
+  for (std::size_t i = 0; i < loop_vertices.size(); ++i) {
+    const auto& segment = overlay_.segment(cdt::SegmentId(static_cast<std::uint32_t>(first + i)));
+    indices[segment.from.index()] = loop_vertices[i];
+  }
+}
+
+void Slab::refresh() {
+  sides_ = cdt::flood(overlay_, Side::none, [&](cdt::EdgeId e, Side side) {
+    auto bits = static_cast<unsigned>(side);
+    for (const cdt::Passage passage : overlay_.passages(e))
+      bits ^= static_cast<unsigned>(level(passage.segment()) == Level::lower ? Side::lower
+                                                                             : Side::upper);
+    return static_cast<Side>(bits);
+  });
+}
+
+bool Slab::is_contour(cdt::EdgeId e, Level wanted) const {
+  return std::ranges::any_of(overlay_.passages(e), [&](cdt::Passage passage) {
+    return level(passage.segment()) == wanted;
+  });
+}
+
+std::optional<cdt::VertexId> Slab::split(cdt::EdgeId e, cdt::Point point) {
+  return overlay_.split(e, point);
+}
+
+std::optional<cdt::VertexId> Slab::split(cdt::TriangleId t, cdt::Point point) {
+  return overlay_.split(t, point);
+}
+
+}  // namespace loft

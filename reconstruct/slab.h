@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "cdt/triangulation.h"
+#include "reconstruct/region.h"
+
+namespace loft {
+
+/// In which of a slab's two regions an overlay triangle is.
+enum class Side : std::uint8_t { none = 0, lower = 1, upper = 2, both = 3 };
+
+/// One of the two slices of a slab.
+enum class Level : std::uint8_t { lower, upper };
+
+[[nodiscard]] constexpr Level other(Level level) {
+  return level == Level::lower ? Level::upper : Level::lower;
+}
+
+/// The space between two neighbouring slices, with its overlay: the loops of both as constraints
+/// of one CDT (design, section 3, step 1).
+class Slab {
+ public:
+  /// Keeps references to the regions. Cost: that of the CDT.
+  Slab(const Region& lower, const Region& upper);
+
+  [[nodiscard]] const Region& lower() const { return lower_; }
+  [[nodiscard]] const Region& upper() const { return upper_; }
+  [[nodiscard]] const Region& region(Level level) const {
+    return level == Level::lower ? lower_ : upper_;
+  }
+  [[nodiscard]] double height() const { return upper_.z - lower_.z; }
+
+  [[nodiscard]] const cdt::Triangulation& overlay() const { return overlay_; }
+
+  [[nodiscard]] Side side(cdt::TriangleId t) const { return sides_[t.index()]; }
+  /// The side of the triangle left of an edge.
+  [[nodiscard]] Side side(cdt::EdgeId e) const { return side(cdt::Triangulation::triangle(e)); }
+  /// Whether a triangle is inside exactly one of the two regions.
+  [[nodiscard]] bool is_sheet(cdt::EdgeId e) const {
+    return side(e) == Side::lower || side(e) == Side::upper;
+  }
+
+  /// Whether an edge of a slice's contours runs along e.
+  [[nodiscard]] bool is_contour(cdt::EdgeId e, Level level) const;
+  /// Which slice a segment of the overlay is an edge of.
+  [[nodiscard]] Level level(cdt::SegmentId s) const {
+    return s.index() < lower_.loop_vertices.size() ? Level::lower : Level::upper;
+  }
+  /// The index of an overlay vertex among the points of a slice's region; Origin::none if it is
+  /// none of them.
+  [[nodiscard]] std::uint32_t index(cdt::VertexId v, Level level) const {
+    const auto& indices = level == Level::lower ? lower_index_ : upper_index_;
+    return v.index() < indices.size() ? indices[v.index()] : Origin::none;
+  }
+  /// Whether a vertex is a contour vertex of both slices.
+  [[nodiscard]] bool is_column(cdt::VertexId v) const {
+    return index(v, Level::lower) != Origin::none && index(v, Level::upper) != Origin::none;
+  }
+  [[nodiscard]] bool is_vertex(cdt::VertexId v, Level level) const {
+    return index(v, level) != Origin::none;
+  }
+
+  /// Splits an edge or a triangle of a sheet at a point; none if it is too small for that.
+  /// Call refresh() after the last one.
+  std::optional<cdt::VertexId> split(cdt::EdgeId e, cdt::Point point);
+  std::optional<cdt::VertexId> split(cdt::TriangleId t, cdt::Point point);
+  /// Classifies the triangles anew.
+  void refresh();
+
+ private:
+  void note_vertices(Level level);
+
+  const Region& lower_;
+  const Region& upper_;
+  cdt::Triangulation overlay_;
+  std::vector<Side> sides_;
+  std::vector<std::uint32_t> lower_index_;
+  std::vector<std::uint32_t> upper_index_;
+};
+
+}  // namespace loft

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/tiles.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "cdt/predicates.h"
+#include "cdt/regions.h"
+#include "reconstruct/crossings.h"
+#include "reconstruct/slab.h"
+
+namespace loft {
+
+namespace {
+
+using cdt::EdgeId;
+using cdt::Point;
+using cdt::SegmentId;
+using cdt::Triangulation;
+using cdt::VertexId;
+
+/// Makes the sheets and walls of a lifted slab.
+class Tiling {
+ public:
+  Tiling(const Slab& slab, const Lift& lift) : slab_(slab), mesh_(slab.overlay()), lift_(lift) {}
+
+  TileSet run() {
+    tiles_.inner = lift_.inner();
+    tiles_.tiles.reserve(mesh_.triangle_count());
+    add_sheets();
+    for (std::uint32_t s = 0; s < mesh_.segment_count(); ++s) add_wall(SegmentId(s));
+    return std::move(tiles_);
+  }
+
+ private:
+  /// Sheets of the lower region have the solid below them, those of the upper one above.
+  void add_sheets() {
+    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
+      const EdgeId e = Triangulation::edge(cdt::TriangleId(t));
+      if (!slab_.is_sheet(e)) continue;
+      std::uint32_t a = lift_.node(e);
+      std::uint32_t b = lift_.node(Triangulation::next(e));
+      if (slab_.side(e) == Side::upper) std::swap(a, b);
+      add({a, b, lift_.node(Triangulation::prev(e))}, FaceKind::sheet);
+    }
+  }
+
+  void add(std::array<std::uint32_t, 3> nodes, FaceKind kind) {
+    tiles_.tiles.push_back({nodes, kind});
+  }
+
+  /// The vertical polygon between a contour edge in its slice and the sheets beside its pieces.
+  /// It looks away from the side on which its own slice is inside.
+  void add_wall(SegmentId s) {
+    const Level level = slab_.level(s);
+    const cdt::Segment& segment = mesh_.segment(s);
+    const std::uint32_t from = lift_.node(slab_.index(segment.from, level), level);
+    const std::uint32_t to = lift_.node(slab_.index(segment.to, level), level);
+    find_roof(s, level);
+    if (roof_.size() == 2 && roof_.front() == from && roof_.back() == to) return;
+
+    polygon_.clear();
+    if (level == Level::lower) {
+      polygon_ = {from, to};
+      polygon_.insert(polygon_.end(), roof_.rbegin(), roof_.rend());
+    } else {
+      polygon_ = roof_;
+      polygon_.insert(polygon_.end(), {to, from});
+    }
+    const auto [last, end] = std::ranges::unique(polygon_);
+    polygon_.erase(last, end);
+    while (polygon_.size() > 1 && polygon_.front() == polygon_.back()) polygon_.pop_back();
+    if (polygon_.size() >= 3) fill_upright(place(from), place(to));
+  }
+
+  /// The nodes above or below a contour edge, from its start to its end.
+  void find_roof(SegmentId s, Level level) {
+    roof_.clear();
+    const cdt::Segment& segment = mesh_.segment(s);
+    const auto whole = mesh_.find_edge(segment.from, segment.to);
+    const auto is_s = [&](cdt::Passage passage) { return passage.segment() == s; };
+    if (whole && std::ranges::any_of(mesh_.passages(*whole), is_s)) {
+      add_piece(*whole, level);
+    } else {
+      for (const EdgeId e : mesh_.pieces(s)) add_piece(e, level);
+    }
+  }
+
+  /// A piece's own slice is inside on its left. The sheet beside it is there, if the other slice is
+  /// outside; else on the right, if the other slice is inside; else both slices end here, and the
+  /// walls of both meet half way.
+  void add_piece(EdgeId e, Level level) {
+    const Side own = level == Level::lower ? Side::lower : Side::upper;
+    const EdgeId f = mesh_.twin(e);
+    if (slab_.side(e) == own) {
+      add_roof(lift_.node(e));
+      add_roof(lift_.node(Triangulation::next(e)));
+    } else if (slab_.is_sheet(f)) {
+      add_roof(lift_.node(Triangulation::next(f)));
+      add_roof(lift_.node(f));
+    } else {
+      add_roof(lift_.node(mesh_.from(e)));
+      add_roof(lift_.node(mesh_.to(e)));
+    }
+  }
+
+  void add_roof(std::uint32_t node) {
+    if (roof_.empty() || roof_.back() != node) roof_.push_back(node);
+  }
+
+  [[nodiscard]] Vec3 place(std::uint32_t node) const {
+    const auto& lower = slab_.lower();
+    const auto& upper = slab_.upper();
+    if (node < lower.points.size()) return {lower.points[node].x, lower.points[node].y, lower.z};
+    node -= static_cast<std::uint32_t>(lower.points.size());
+    if (node < upper.points.size()) return {upper.points[node].x, upper.points[node].y, upper.z};
+    return tiles_.inner[node - upper.points.size()].place;
+  }
+
+  /// Triangulates polygon_, counter-clockwise as seen from outside, over the line from -> to.
+  void fill_upright(const Vec3& from, const Vec3& to) {
+    const unsigned axis = std::abs(to[0] - from[0]) >= std::abs(to[1] - from[1]) ? 0 : 1;
+    const double sign = to[axis] > from[axis] ? 1 : -1;
+    flat_.clear();
+    for (const std::uint32_t node : polygon_) {
+      const Vec3 p = place(node);
+      flat_.push_back({sign * p[axis], p[2]});
+    }
+    if (polygon_.size() == 3) {
+      if (cdt::orient(flat_[0], flat_[1], flat_[2]) != 0)
+        add({polygon_[0], polygon_[1], polygon_[2]}, FaceKind::wall);
+      return;
+    }
+    fill_polygon();
+  }
+
+  /// The polygon's constrained Delaunay triangulation: of all ways to cut it the one with the best
+  /// shapes.
+  void fill_polygon() {
+    wall_.clear();
+    const auto ring = wall_.insert(flat_, cdt::closed);
+    corner_.assign(wall_.vertex_count() + 1, Origin::none);
+    const auto segments = wall_.segments(ring);
+    for (std::size_t i = 0; i < segments.size(); ++i)
+      corner_[segments[i].from.index()] = polygon_[i];
+    const auto is_inside = cdt::odd_parity(wall_);
+    for (std::uint32_t t = 0; t < wall_.triangle_count(); ++t) {
+      if (!is_inside[t]) continue;
+      const EdgeId e = Triangulation::edge(cdt::TriangleId(t));
+      add({corner_[wall_.from(e).index()], corner_[wall_.to(e).index()],
+           corner_[wall_.apex(e).index()]},
+          FaceKind::wall);
+    }
+  }
+
+  const Slab& slab_;
+  const Triangulation& mesh_;
+  const Lift& lift_;
+  TileSet tiles_;
+
+  // Of the wall at hand.
+  std::vector<std::uint32_t> roof_;
+  std::vector<std::uint32_t> polygon_;
+  std::vector<Point> flat_;
+  Triangulation wall_;
+  std::vector<std::uint32_t> corner_;
+};
+
+}  // namespace
+
+TileSet tile(const Region& lower, const Region& upper) {
+  Slab slab(lower, upper);
+  const Lift lift(slab);
+  TileSet tiles = Tiling(slab, lift).run();
+  collapse_crossings(lower, upper, tiles);
+  return tiles;
+}
+
+}  // namespace loft

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "reconstruct/lift.h"
+#include "reconstruct/mesh.h"
+#include "reconstruct/origin.h"
+#include "reconstruct/region.h"
+
+namespace loft {
+
+/// A triangle of a slab, by nodes.
+struct Tile {
+  std::array<std::uint32_t, 3> nodes;
+  FaceKind kind;
+};
+
+/// All triangles of one slab. Nodes are numbered as in Lift: the points of the lower region, those
+/// of the upper region, then the inner vertices. Faces look out of the solid.
+struct TileSet {
+  std::vector<InnerVertex> inner;
+  std::vector<Tile> tiles;
+};
+
+/// The surface between two neighbouring slices (design, section 3, steps 1 to 6): a pure function
+/// of the two regions. It touches the slice planes in the contours alone, each contour edge is an
+/// edge of exactly one tile, unsplit; so slabs fit together whatever is on the other side.
+/// Cost: that of the CDT of both slices.
+[[nodiscard]] TileSet tile(const Region& lower, const Region& upper);
+
+}  // namespace loft
