@@ -6,6 +6,7 @@
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "cdt/expansion.h"
 
@@ -13,19 +14,106 @@ namespace loft::cdt {
 
 namespace {
 
-struct ExactVector {
-  Expansion<2> x;
-  Expansion<2> y;
+// --- Twice the precision: much faster than exact, and nearly always enough ---
+
+TwoTerms operator+(TwoTerms a, TwoTerms b) {
+  const auto [high, low] = two_sum(a.high, b.high);
+  return two_sum(high, low + (a.low + b.low));
+}
+
+TwoTerms operator-(TwoTerms a, TwoTerms b) { return a + TwoTerms{-b.high, -b.low}; }
+
+TwoTerms operator*(TwoTerms a, TwoTerms b) {
+  const auto [high, low] = two_product(a.high, b.high);
+  return fast_two_sum(high, low + (a.high * b.low + a.low * b.high));
+}
+
+/// A bound for the error of fewer than 16 of these operations in a row, relative to the sum of the
+/// absolute values of what is added up. (One operation errs by less than 2^-103 of that.)
+constexpr double doubled_rounding = 0x1p-98;
+
+// --- The determinants, for any kind of number ---
+
+template <class Number>
+struct Vector {
+  Number x;
+  Number y;
 };
 
-ExactVector difference(Point a, Point b) { return {exact_diff(a.x, b.x), exact_diff(a.y, b.y)}; }
+using ExactVector = Vector<Expansion<2>>;
 
-Expansion<16> cross(const ExactVector& a, const ExactVector& b) { return a.x * b.y - a.y * b.x; }
+/// Without error.
+Vector<TwoTerms> difference(Point a, Point b) { return {two_diff(a.x, b.x), two_diff(a.y, b.y)}; }
 
-Expansion<16> squared_length(const ExactVector& a) { return a.x * a.x + a.y * a.y; }
+ExactVector exact(const Vector<TwoTerms>& a) { return {Expansion<2>(a.x), Expansion<2>(a.y)}; }
 
-/// Twice the signed area of the triangle a, b, c.
-Expansion<16> area(Point a, Point b, Point c) { return cross(difference(a, c), difference(b, c)); }
+/// A bound for the length, in plain precision.
+double reach(const Vector<TwoTerms>& a) { return std::abs(a.x.high) + std::abs(a.y.high); }
+
+/// The largest power of two of which the number is a multiple; infinity for 0.
+double unit(double a) {
+  if (a == 0) return std::numeric_limits<double>::infinity();
+  constexpr std::uint64_t fraction = (std::uint64_t{1} << 52) - 1;
+  const auto bits = std::bit_cast<std::uint64_t>(a);
+  if ((bits & fraction) == 0) return std::abs(a);
+  return std::abs(a - std::bit_cast<double>(bits & (bits - 1)));
+}
+
+double unit(const Vector<TwoTerms>& a) {
+  return std::min({unit(a.x.high), unit(a.x.low), unit(a.y.high), unit(a.y.low)});
+}
+
+template <class Number>
+auto cross(const Vector<Number>& a, const Vector<Number>& b) {
+  return a.x * b.y - a.y * b.x;
+}
+
+template <class Number>
+auto squared_length(const Vector<Number>& a) {
+  return a.x * a.x + a.y * a.y;
+}
+
+/// Positive if the origin is inside the circle through a, b, c (counter-clockwise).
+template <class Number>
+auto circle_determinant(const Vector<Number>& a, const Vector<Number>& b, const Vector<Number>& c) {
+  return squared_length(a) * cross(b, c) + squared_length(b) * cross(c, a) +
+         squared_length(c) * cross(a, b);
+}
+
+// --- Division ---
+
+/// The double that all numbers within `slack` of the sum round to, if there is one.
+std::optional<double> certain_rounding(TwoTerms sum, double slack) {
+  const auto [high, low] = two_sum(sum.high, sum.low);
+  if (high + (low - slack) == high && high + (low + slack) == high) return high;
+  return std::nullopt;
+}
+
+/// A number and a bound for its error.
+struct Approximate {
+  TwoTerms value;
+  double error;
+
+  [[nodiscard]] double relative_error() const { return error / std::abs(value.high); }
+};
+
+Approximate approximate_cross(const Vector<TwoTerms>& a, const Vector<TwoTerms>& b) {
+  return {cross(a, b), doubled_rounding * reach(a) * reach(b)};
+}
+
+/// The quotient rounded to double where its error leaves no doubt.
+std::optional<double> rounded_quotient(const Approximate& numerator,
+                                       const Approximate& denominator) {
+  const TwoTerms& n = numerator.value;
+  const TwoTerms& d = denominator.value;
+  const double guess = n.high / d.high;
+  const double correction = (n - d * TwoTerms{guess, 0}).high / d.high;
+  // Twice, for what is of second order.
+  const double slack =
+      2 * std::abs(guess) *
+      (numerator.relative_error() + denominator.relative_error() + doubled_rounding);
+  return certain_rounding({guess, correction}, slack);
+}
 
 bool is_odd(double value) { return (std::bit_cast<std::uint64_t>(value) & 1) != 0; }
 
@@ -47,34 +135,22 @@ struct Quotient {
     return side > 0 || (side == 0 && is_odd(value));
   }
 
-  /// From a double near the value, step by step to the nearest.
-  [[nodiscard]] double rounded_from(double guess) const {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    while (true) {
-      const double above = std::nextafter(guess, infinity);
-      const double below = std::nextafter(guess, -infinity);
-      if (prefers(guess, above)) {
-        guess = above;
-      } else if (prefers(guess, below)) {
-        guess = below;
-      } else {
-        return guess;
-      }
-    }
-  }
-
-  /// To nearest, even.
+  /// To nearest, even: from a double that is off by a few last places at most, step by step.
   [[nodiscard]] double rounded() const {
     if (numerator.sign() == 0) return 0;  // never -0
-    const double divisor = denominator.estimate();
-    const double guess = numerator.estimate() / divisor;
-    const double correction = (numerator - denominator * guess).estimate() / divisor;
-    // The guess is off by less than 8 roundings, and so is the correction, relatively: if the sum
-    // of both rounds to one double all over that range, this is the one.
-    const auto [high, low] = two_sum(guess, correction);
-    const double slack = 8 * detail::rounding * std::abs(correction);
-    if (high + (low - slack) == high && high + (low + slack) == high) return high;
-    return rounded_from(high);
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    double result = numerator.estimate() / denominator.estimate();
+    while (true) {
+      const double above = std::nextafter(result, infinity);
+      const double below = std::nextafter(result, -infinity);
+      if (prefers(result, above)) {
+        result = above;
+      } else if (prefers(result, below)) {
+        result = below;
+      } else {
+        return result;
+      }
+    }
   }
 };
 
@@ -82,16 +158,24 @@ struct Quotient {
 
 namespace detail {
 
-int orient_exact(Point a, Point b, Point c) { return area(a, b, c).sign(); }
+int orient_exact(Point a, Point b, Point c) {
+  return cross(exact(difference(a, c)), exact(difference(b, c))).sign();
+}
 
 int in_circle_exact(Point a, Point b, Point c, Point d) {
-  const ExactVector ad = difference(a, d);
-  const ExactVector bd = difference(b, d);
-  const ExactVector cd = difference(c, d);
-  const auto a_part = squared_length(ad) * cross(bd, cd);
-  const auto b_part = squared_length(bd) * cross(cd, ad);
-  const auto c_part = squared_length(cd) * cross(ad, bd);
-  return (a_part + b_part + c_part).sign();
+  const auto ad = difference(a, d);
+  const auto bd = difference(b, d);
+  const auto cd = difference(c, d);
+  const double determinant = circle_determinant(ad, bd, cd).high;
+  const double reach_a = reach(ad), reach_b = reach(bd), reach_c = reach(cd);
+  const double magnitude = reach_a * reach_b * reach_c * (reach_a + reach_b + reach_c);
+  const double bound = doubled_rounding * magnitude;
+  if (determinant > bound) return 1;
+  if (determinant < -bound) return -1;
+  // On grids the determinant is a multiple of something, and often certain to be less: a tie.
+  const double step = std::min({unit(ad), unit(bd), unit(cd)});
+  if (bound + std::abs(determinant) < step * step * step * step) return 0;
+  return circle_determinant(exact(ad), exact(bd), exact(cd)).sign();
 }
 
 /// in_circle is the sign of the determinant with the rows (x, y, height, 1) of a, b, c and d.
@@ -128,11 +212,26 @@ bool crosses(Point a, Point b, Point c, Point d) {
 
 /// The point divides ab in the ratio of the distances of a and b from the line cd, with sign.
 Point intersection(Point a, Point b, Point c, Point d) {
-  const Expansion<16> to_a = area(c, d, a);
-  const Expansion<16> to_b = area(c, d, b);
-  const Expansion<16> across = cross(difference(d, c), difference(a, b));  // to_a - to_b
-  return {Quotient{to_a * b.x - to_b * a.x, across}.rounded(),
-          Quotient{to_a * b.y - to_b * a.y, across}.rounded()};
+  const auto line = difference(d, c);
+  const auto from_a = difference(a, c);
+  const auto from_b = difference(b, c);
+  const auto way = difference(a, b);
+
+  const auto exactly = [&](double at_a, double at_b) {
+    const auto to_a = cross(exact(line), exact(from_a));
+    const auto to_b = cross(exact(line), exact(from_b));
+    return Quotient{to_a * at_b - to_b * at_a, cross(exact(line), exact(way))}.rounded();
+  };
+  const Approximate to_a = approximate_cross(line, from_a);
+  const Approximate to_b = approximate_cross(line, from_b);
+  const Approximate across = approximate_cross(line, way);
+  const auto at = [&](double at_a, double at_b) {
+    const TwoTerms numerator = to_a.value * TwoTerms{at_b, 0} - to_b.value * TwoTerms{at_a, 0};
+    const double error = to_a.error * std::abs(at_b) + to_b.error * std::abs(at_a);
+    const auto quick = rounded_quotient({numerator, error}, across);
+    return quick ? *quick : exactly(at_a, at_b);
+  };
+  return {at(a.x, b.x), at(a.y, b.y)};
 }
 
 }  // namespace loft::cdt

@@ -58,7 +58,7 @@ inline constexpr double orient_bound = 5 * rounding;
 /// two sums: 11 roundings.
 inline constexpr double in_circle_bound = 12 * rounding;
 
-/// The predicates without filter.
+/// The predicates without filter: for what that cannot decide.
 [[nodiscard]] int orient_exact(Point a, Point b, Point c);
 [[nodiscard]] int in_circle_exact(Point a, Point b, Point c, Point d);
 /// in_circle_perturbed for four points of which in_circle says 0.

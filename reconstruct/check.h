@@ -19,8 +19,8 @@ enum class Fault {
   nonmanifold_edge,    ///< an edge with more than two faces
   nonmanifold_vertex,  ///< a vertex whose faces form more than one fan
   inconsistent_edge,   ///< two faces that run along their edge in the same direction
-  inside_out,          ///< a component that faces inwards where it should face outwards, or the reverse
-  self_intersection,   ///< two faces that meet elsewhere than in shared corners and edges (exact)
+  inside_out,  ///< a component that faces inwards where it should face outwards, or the reverse
+  self_intersection,  ///< two faces that meet elsewhere than in shared corners and edges (exact)
 };
 
 /// The fault's name as reports print it, for example `boundary_edge`.
@@ -36,6 +36,9 @@ struct Finding {
 /// All faults of a mesh; empty if it bounds a solid: closed, manifold, oriented, outward, no
 /// degenerate face, no self-intersection. Decisions are exact. Vertices at the same place count as
 /// one for self-intersections (parts may touch where they share corners), not for topology.
+/// inside_out is asked only of components that are closed, oriented and meet no other one, with a
+/// volume beyond rounding. Faces without area are left out of self-intersections; those that name a
+/// vertex twice, of topology as well. Findings come in the order of Fault, then of the elements.
 /// Cost: O(n log n) in practice.
 [[nodiscard]] std::vector<Finding> check(const Mesh& mesh);
 [[nodiscard]] std::vector<Finding> check(const Surface& surface);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 
 #include "reconstruct/predicates.h"
@@ -52,6 +53,15 @@ double squared_distance(const Vec3& p, const Corners& t) {
                    squared_distance(p, t[2], t[0])});
 }
 
+/// Squared: area over the sum of the squared sides; largest for equal sides, 0 if degenerate.
+double shape(const Corners& t) {
+  const Vec3 u = difference(t[1], t[0]);
+  const Vec3 v = difference(t[2], t[0]);
+  const Vec3 w = difference(t[2], t[1]);
+  const double sides = dot(u, u) + dot(v, v) + dot(w, w);
+  return (dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v)) / (sides * sides);
+}
+
 class Collapse {
  public:
   Collapse(const Region& lower, const Region& upper, TileSet& tiles)
@@ -83,8 +93,8 @@ class Collapse {
  private:
   /// A contour vertex to pull a crossing into.
   struct Target {
-    double squared_drift;
-    std::uint32_t node;
+    double shape;    // of the worst triangle that it makes
+    std::size_t at;  // its place in the link
   };
 
   void find_crossings() {
@@ -168,19 +178,17 @@ class Collapse {
     std::vector<Target> targets;
     for (std::size_t i = 0; i < link_.size(); ++i) {
       if (!is_contour(link_[i]) || !keeps_topology(p, i)) continue;
-      const double drift = squared_drift(p, i);
-      if (drift <= most_squared_drift_) targets.push_back({drift, link_[i]});
+      make_fan(i);
+      if (squared_drift(p) <= most_squared_drift_) targets.push_back({worst_shape(), i});
     }
     std::ranges::sort(targets, [this](const Target& a, const Target& b) {
-      if (a.squared_drift != b.squared_drift) return a.squared_drift < b.squared_drift;
-      return place(a.node) < place(b.node);
+      if (a.shape != b.shape) return a.shape > b.shape;
+      return place(link_[a.at]) < place(link_[b.at]);
     });
     for (const Target& target : targets) {
-      const auto at =
-          static_cast<std::size_t>(std::ranges::find(link_, target.node) - link_.begin());
-      make_fan(at);
+      make_fan(target.at);
       if (meets_nothing(p)) {
-        replace(p, target.node);
+        replace(p, link_[target.at]);
         return true;
       }
     }
@@ -216,12 +224,18 @@ class Collapse {
       fan_.push_back({link_[at], link_[(at + i) % n], link_[(at + i + 1) % n]});
   }
 
-  [[nodiscard]] double squared_drift(std::uint32_t p, std::size_t at) {
-    make_fan(at);
+  /// How far the fan is from the crossing's old place.
+  [[nodiscard]] double squared_drift(std::uint32_t p) const {
     double least = std::numeric_limits<double>::infinity();
     for (const Nodes& nodes : fan_)
       least = std::min(least, squared_distance(place(p), places(nodes)));
     return least;
+  }
+
+  [[nodiscard]] double worst_shape() const {
+    double worst = std::numeric_limits<double>::infinity();
+    for (const Nodes& nodes : fan_) worst = std::min(worst, shape(places(nodes)));
+    return worst;
   }
 
   /// Whether the fan has no degenerate triangle and touches itself and the tiles, those at p left

@@ -2,8 +2,9 @@
 #include "reconstruct/lift.h"
 
 #include <algorithm>
+#include <cmath>
 
-#include "reconstruct/nearest.h"
+#include "reconstruct/sheet_heights.h"
 
 namespace loft {
 
@@ -15,76 +16,15 @@ using cdt::TriangleId;
 using cdt::Triangulation;
 using cdt::VertexId;
 
-/// Steiner vertices keep that share of the slab's height away from the slices.
-constexpr double least_share = 1e-3;
-
 /// Rounding may spoil a round of splits, more than a few times it can't.
 constexpr int most_rounds = 8;
 
-/// How far a point is from the contours of either slice that bound its sheet.
-class SheetDistances {
- public:
-  explicit SheetDistances(const Slab& slab)
-      : slab_(slab), sheet_of_(slab.overlay().triangle_count(), Origin::none) {}
-
-  /// The height of the surface over a point in the sheet triangle left of e: where shape-based
-  /// interpolation would put it; a dome if the sheet touches one slice only.
-  double height(EdgeId e, Point p) {
-    const Sheet& sheet = sheets_[sheet_of(e)];
-    const double lower = sheet.lower.distance(p);
-    const double upper = sheet.upper.distance(p);
-    const double z = slab_.lower().z;
-    const double height = slab_.height();
-    double share = lower / (lower + upper);
-    if (sheet.upper.is_empty()) share = std::min(lower / height, 0.5);
-    if (sheet.lower.is_empty()) share = 1 - std::min(upper / height, 0.5);
-    return z + std::clamp(share, least_share, 1 - least_share) * height;
-  }
-
- private:
-  struct Sheet {
-    NearestSegment lower;
-    NearestSegment upper;
-  };
-
-  std::uint32_t sheet_of(EdgeId e) {
-    const TriangleId t = Triangulation::triangle(e);
-    if (sheet_of_[t.index()] == Origin::none) explore(t);
-    return sheet_of_[t.index()];
-  }
-
-  void explore(TriangleId start) {
-    const Triangulation& mesh = slab_.overlay();
-    const auto id = static_cast<std::uint32_t>(sheets_.size());
-    std::vector<NearestSegment::Segment> bounds[2];
-    std::vector<TriangleId> front{start};
-    sheet_of_[start.index()] = id;
-    while (!front.empty()) {
-      const TriangleId t = front.back();
-      front.pop_back();
-      for (unsigned corner = 0; corner < 3; ++corner) {
-        const EdgeId e = Triangulation::edge(t, corner);
-        if (mesh.is_constrained(e)) {
-          for (const Level level : {Level::lower, Level::upper})
-            if (slab_.is_contour(e, level))
-              bounds[static_cast<int>(level)].push_back(
-                  {mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
-        } else if (const TriangleId beyond = Triangulation::triangle(mesh.twin(e));
-                   sheet_of_[beyond.index()] == Origin::none) {
-          sheet_of_[beyond.index()] = id;
-          front.push_back(beyond);
-        }
-      }
-    }
-    sheets_.push_back({NearestSegment(std::move(bounds[0])), NearestSegment(std::move(bounds[1]))});
-  }
-
-  const Slab& slab_;
-  std::vector<std::uint32_t> sheet_of_;
-  std::vector<Sheet> sheets_;
-};
+/// An end is refined where its edges are further from its height than that share of the slab.
+constexpr double coarseness = 0.1;
 
 Point middle(Point a, Point b) { return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2}; }
+
+double distance(Point a, Point b) { return std::hypot(b.x - a.x, b.y - a.y); }
 
 Point middle(Point a, Point b, Point c) {
   return {a.x + ((b.x - a.x) + (c.x - a.x)) / 3, a.y + ((b.y - a.y) + (c.y - a.y)) / 3};
@@ -98,10 +38,9 @@ Lift::Lift(Slab& slab)
       lower_count_(static_cast<std::uint32_t>(slab.lower().points.size())) {
   decide_columns();
   lift_crossings();
-  for (int round = 0; round < most_rounds && raise_chords(); ++round) {
-    slab_.refresh();
-    restore_columns();
+  for (int round = 0; round < most_rounds && insert(find_chords()); ++round) {
   }
+  insert(find_coarse_ends());
 }
 
 std::uint32_t Lift::node(EdgeId corner) const {
@@ -238,9 +177,10 @@ bool Lift::is_flat(EdgeId e) const {
 }
 
 /// What has to leave the slice planes: every chord, and every triangle of contour edges only.
-/// In the order of the places, so that the result does not depend on ids.
+/// Ends first, from the middle outwards, so that they become round; then forks, short chords
+/// first, across the necks.
 std::vector<Lift::Steiner> Lift::find_chords() const {
-  SheetDistances distances(slab_);
+  SheetHeights heights(slab_);
   const double half_way = slab_.lower().z + slab_.height() / 2;
   std::vector<Steiner> found;
   for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
@@ -252,37 +192,75 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
       has_chord = true;
       const bool is_contour = mesh_.is_constrained(e);
       if (!is_contour && mesh_.twin(e) < e) continue;
-      const Point place = middle(mesh_.point(mesh_.from(e)), mesh_.point(mesh_.to(e)));
-      found.push_back({place,
-                       is_contour ? half_way : distances.height(e, place),
+      const Point a = mesh_.point(mesh_.from(e));
+      const Point b = mesh_.point(mesh_.to(e));
+      const Point place = middle(a, b);
+      found.push_back({heights.is_end(e) ? -heights.depth(e, place) : distance(a, b),
+                       place,
+                       is_contour ? half_way : heights.height(e, place),
                        {mesh_.from(e), mesh_.to(e), VertexId::none()}});
     }
     if (has_chord || !is_flat(first)) continue;
     const VertexId corners[3] = {mesh_.from(first), mesh_.to(first), mesh_.apex(first)};
     const Point place =
         middle(mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2]));
-    found.push_back({place, distances.height(first, place), {corners[0], corners[1], corners[2]}});
+    found.push_back({0, place, heights.height(first, place), {corners[0], corners[1], corners[2]}});
   }
-  std::ranges::sort(found, {}, &Steiner::place);
   return found;
 }
 
-/// Splits what find_chords() found. Heights are those over the sheets as they were before.
+/// The edges of ends that are far from the height of the surface there.
+std::vector<Lift::Steiner> Lift::find_coarse_ends() const {
+  SheetHeights heights(slab_);
+  std::vector<Steiner> found;
+  for (std::uint32_t i = 0; i < mesh_.edge_count(); ++i) {
+    const EdgeId e(i);
+    if (!slab_.is_sheet(e) || mesh_.is_constrained(e) || mesh_.twin(e) < e) continue;
+    if (!heights.is_end(e)) continue;
+    const Point place = middle(mesh_.point(mesh_.from(e)), mesh_.point(mesh_.to(e)));
+    const double z = heights.height(e, place);
+    const double off = std::abs(z - (z_at(e) + z_at(Triangulation::next(e))) / 2);
+    if (off > coarseness * slab_.height())
+      found.push_back({-off, place, z, {mesh_.from(e), mesh_.to(e), VertexId::none()}});
+  }
+  return found;
+}
+
+double Lift::z_at(EdgeId corner) const {
+  switch (height(corner)) {
+    case Height::lower:
+      return slab_.lower().z;
+    case Height::upper:
+      return slab_.upper().z;
+    default:
+      return inner_[inner_index_[mesh_.from(corner).index()]].place[2];
+  }
+}
+
+/// Inserts Steiner vertices in the order of their ranks, then of their places, so that the result
+/// does not depend on ids. One whose edge an earlier one has flipped away is left out.
 /// Returns whether there was anything to do.
-bool Lift::raise_chords() {
+bool Lift::insert(std::vector<Steiner> steiners) {
+  std::ranges::sort(steiners, [](const Steiner& a, const Steiner& b) {
+    return a.rank != b.rank ? a.rank < b.rank : a.place < b.place;
+  });
   bool is_changed = false;
-  for (const Steiner& steiner : find_chords()) {
+  for (const Steiner& steiner : steiners) {
     if (const auto v = split(steiner)) {
       add_inner(*v, steiner.z, VertexKind::steiner);
       is_changed = true;
     }
+  }
+  if (is_changed) {
+    slab_.refresh();
+    restore_columns();
   }
   return is_changed;
 }
 
 std::optional<VertexId> Lift::split(const Steiner& steiner) {
   const auto e = mesh_.find_edge(steiner.corners[0], steiner.corners[1]);
-  if (!e) return {};  // a split nearby has flipped it away
+  if (!e) return {};
   if (steiner.corners[2].is_none()) return slab_.split(*e, steiner.place);
   if (mesh_.apex(*e) != steiner.corners[2]) return {};
   return slab_.split(Triangulation::triangle(*e), steiner.place);

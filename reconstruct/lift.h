@@ -48,6 +48,7 @@ class Lift {
   /// A Steiner vertex to be: on the edge between the first two corners, or, if there is a third
   /// one, in their triangle.
   struct Steiner {
+    double rank;  // the lowest is inserted first
     cdt::Point place;
     double z;
     cdt::VertexId corners[3];
@@ -65,7 +66,9 @@ class Lift {
   void restore_columns();
   void lift_crossings();
   [[nodiscard]] std::vector<Steiner> find_chords() const;
-  bool raise_chords();
+  [[nodiscard]] std::vector<Steiner> find_coarse_ends() const;
+  bool insert(std::vector<Steiner> steiners);
+  [[nodiscard]] double z_at(cdt::EdgeId corner) const;
   void add_inner(cdt::VertexId v, double z, VertexKind kind);
   [[nodiscard]] bool is_chord(cdt::EdgeId e) const;
   [[nodiscard]] bool is_flat(cdt::EdgeId e) const;

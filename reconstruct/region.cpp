@@ -236,7 +236,7 @@ class Cleaning {
     const EdgeId first = mesh_.edge(v);
     EdgeId e = first;
     do {
-      boundary_edges += is_boundary(e) ? 1 : 0;
+      boundary_edges += is_boundary(e) ? 1U : 0U;
       e = mesh_.rotated(e);
     } while (e != first);
     const auto in = mesh_.passages(before);

@@ -16,9 +16,7 @@ struct SurfaceTraits : OpenMesh::DefaultTraits {
   EdgeAttributes(OpenMesh::Attributes::Status);
   HalfedgeAttributes(OpenMesh::Attributes::Status | OpenMesh::Attributes::PrevHalfedge);
   FaceAttributes(OpenMesh::Attributes::Status);
-  VertexTraits {
-    Origin origin;
-  };
+  VertexTraits { Origin origin; };
   FaceTraits {
     FaceKind kind = FaceKind::sheet;
     std::uint32_t slab = 0;  ///< number of slices below it, less one

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/check.h"
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include "app/commands.h"
+#include "app/fidelity.h"
+#include "app/json.h"
+#include "app/report.h"
+#include "app/terminal.h"
+#include "io/meshes.h"
+#include "io/slices.h"
+#include "reconstruct/measure.h"
+
+namespace loft::app {
+
+namespace {
+
+/// What one mesh of the file is worth.
+struct Verdict {
+  std::string label;
+  Measures measures;
+  std::map<Fault, std::vector<Finding>> faults;
+};
+
+std::vector<Verdict> judge(const std::vector<io::LabelledMesh>& meshes) {
+  std::vector<Verdict> verdicts;
+  for (const auto& [label, mesh] : meshes) {
+    Verdict verdict{label, measure(mesh), {}};
+    for (Finding& finding : check(mesh))
+      verdict.faults[finding.fault].push_back(std::move(finding));
+    verdicts.push_back(std::move(verdict));
+  }
+  return verdicts;
+}
+
+/// ` faces 3 7 vertices 1 2`, of one finding.
+std::string where(const Finding& finding) {
+  std::string text;
+  const auto add = [&text](const char* what, const std::vector<std::uint32_t>& numbers) {
+    if (numbers.empty()) return;
+    text += what;
+    for (const std::uint32_t number : numbers) text += ' ' + std::to_string(number);
+  };
+  add(" faces", finding.faces);
+  add(" vertices", finding.vertices);
+  return text;
+}
+
+void print_verdict(const std::string& name, const Verdict& verdict) {
+  std::cout << name << (verdict.label.empty() ? "" : " '" + verdict.label + "'")
+            << (verdict.faults.empty() ? ": a valid solid\n" : ": not a valid solid\n");
+  std::cout << "  " << describe(verdict.measures) << '\n';
+  for (const auto& [fault, findings] : verdict.faults) {
+    std::cout << "  " << loft::name(fault) << ": " << grouped(findings.size()) << ", first at"
+              << where(findings.front()) << '\n';
+  }
+}
+
+void print_fidelity(const std::string& name, const Fidelity& fidelity, bool is_exact_format) {
+  if (fidelity.is_complete()) {
+    std::cout << name << ": all " << grouped(fidelity.vertices) << " contour vertices and "
+              << grouped(fidelity.edges) << " contour edges are in the mesh, exactly\n";
+    return;
+  }
+  std::cout << name << ": not in the mesh: " << grouped(fidelity.missing_vertices) << " of "
+            << grouped(fidelity.vertices) << " contour vertices, "
+            << grouped(fidelity.missing_edges) << " of " << grouped(fidelity.edges)
+            << " contour edges; first: " << *fidelity.first_missing << '\n';
+  if (!is_exact_format) {
+    std::cout << "  STL and glTF round coordinates to float; compare a .ply, .obj or .off\n";
+  }
+}
+
+/// The object that `loft check --json` prints: schema "loft-check", schema_version 1, mesh, valid,
+/// parts (label, valid, counts and measures, faults by name), stack (name, counts).
+Json to_json(const CheckCommand& command, const std::vector<Verdict>& verdicts,
+             const std::optional<Fidelity>& fidelity) {
+  Json json;
+  json["schema"] = "loft-check";
+  json["schema_version"] = 1;
+  json["mesh"] = command.mesh.string();
+  json["valid"] = std::ranges::all_of(verdicts, [](const Verdict& v) { return v.faults.empty(); });
+  json["parts"] = Json::array();
+  for (const Verdict& verdict : verdicts) {
+    Json part;
+    part["label"] = verdict.label;
+    part["valid"] = verdict.faults.empty();
+    add_measures(part, verdict.measures);
+    part["faults"] = Json::object();
+    for (const auto& [fault, findings] : verdict.faults) {
+      part["faults"][loft::name(fault)] = findings.size();
+    }
+    json["parts"].push_back(std::move(part));
+  }
+  if (!fidelity) return json;
+  json["stack"] = {
+      {"name", command.stack->string()}, {"complete", fidelity->is_complete()},
+      {"vertices", fidelity->vertices},  {"missing_vertices", fidelity->missing_vertices},
+      {"edges", fidelity->edges},        {"missing_edges", fidelity->missing_edges}};
+  return json;
+}
+
+}  // namespace
+
+ExitCode run(const CheckCommand& command) {
+  const std::vector<io::LabelledMesh> meshes = io::read_meshes(command.mesh);
+  std::optional<Fidelity> fidelity;
+  if (command.stack) fidelity = compare(io::read_slices(*command.stack), meshes);
+  const std::vector<Verdict> verdicts = judge(meshes);
+
+  if (command.json) {
+    std::cout << print(to_json(command, verdicts, fidelity)) << '\n';
+  } else {
+    for (const Verdict& verdict : verdicts) print_verdict(command.mesh.string(), verdict);
+    if (fidelity) {
+      print_fidelity(command.stack->string(), *fidelity, io::keeps_coordinates(command.mesh));
+    }
+  }
+  const bool is_valid =
+      std::ranges::all_of(verdicts, [](const Verdict& v) { return v.faults.empty(); });
+  const bool is_good = is_valid && (!fidelity || fidelity->is_complete());
+  return is_good ? ExitCode::ok : ExitCode::check_failed;
+}
+
+}  // namespace loft::app

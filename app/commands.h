@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+#include "reconstruct/options.h"
+
+namespace loft::app {
+
+/// What the program tells its caller; `loft --help` lists them, too.
+enum class ExitCode {
+  ok = 0,
+  check_failed = 1,
+  usage = 2,
+  bad_input = 3,
+  cannot_write = 4,
+  interrupted = 130,
+};
+
+/// The command line asks for something that makes no sense.
+class UsageError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// `loft reconstruct IN... -o OUT ...`
+struct ReconstructCommand {
+  std::vector<std::filesystem::path> inputs;
+  std::vector<std::filesystem::path> outputs;
+  Options options;
+  double metres_per_unit = 0.001;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `loft check MESH [--stack STACK]`
+struct CheckCommand {
+  std::filesystem::path mesh;
+  std::optional<std::filesystem::path> stack;
+  bool json = false;
+};
+
+/// `loft info FILE`
+struct InfoCommand {
+  std::filesystem::path file;
+  bool json = false;
+};
+
+/// Each command prints its results on stdout and its words on stderr. Throws UsageError and
+/// loft::Error; outputs are complete or not there.
+[[nodiscard]] ExitCode run(const ReconstructCommand& command);
+[[nodiscard]] ExitCode run(const CheckCommand& command);
+[[nodiscard]] ExitCode run(const InfoCommand& command);
+
+}  // namespace loft::app

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/labelled_mesh.h"
+#include "reconstruct/slice.h"
+
+namespace loft::app {
+
+/// How much of a stack's contours is found in a mesh, exactly.
+struct Fidelity {
+  std::size_t vertices = 0;
+  std::size_t missing_vertices = 0;
+  std::size_t edges = 0;
+  std::size_t missing_edges = 0;
+  std::optional<std::string> first_missing;  ///< where: `slice 2 (z = 1.5) contour 0 point 7`
+
+  [[nodiscard]] bool is_complete() const { return missing_vertices == 0 && missing_edges == 0; }
+};
+
+/// Looks up every contour vertex (the same coordinates, bit for bit) and every contour edge (an
+/// edge of the mesh between those vertices, or two with its midpoint) in all the meshes together.
+/// Contours of fewer than three points and edges without length do not count: no surface can keep
+/// them. Cost: O(n log n).
+[[nodiscard]] Fidelity compare(std::span<const Slice> stack,
+                               std::span<const io::LabelledMesh> meshes);
+
+}  // namespace loft::app

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/commands.h"
+#include "app/json.h"
+#include "app/report.h"
+#include "io/file.h"
+#include "io/meshes.h"
+#include "io/slices.h"
+#include "reconstruct/measure.h"
+
+namespace loft::app {
+
+namespace {
+
+/// The box around some places; empty at first.
+struct Bounds {
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  Vec3 low{infinity, infinity, infinity};
+  Vec3 high{-infinity, -infinity, -infinity};
+
+  void add(const Vec3& place) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      low[axis] = std::min(low[axis], place[axis]);
+      high[axis] = std::max(high[axis], place[axis]);
+    }
+  }
+  [[nodiscard]] bool is_empty() const { return !(low[0] <= high[0]); }
+};
+
+/// What there is to know about a stack without reconstructing it.
+struct StackSummary {
+  StackSize size;
+  std::size_t empty_slices = 0;
+  Bounds bounds;
+  std::vector<double> gaps;  ///< between neighbouring heights, sorted
+  std::map<std::string, StackSize> labels;
+};
+
+StackSummary summarise(const std::vector<Slice>& stack) {
+  StackSummary summary;
+  summary.size = size_of(stack);
+  std::vector<double> heights;
+  for (const Slice& slice : stack) {
+    heights.push_back(slice.z);
+    if (slice.contours.empty()) ++summary.empty_slices;
+    for (const Contour& contour : slice.contours) {
+      summary.labels.try_emplace(contour.label);
+      for (const cdt::Point& point : contour.points) {
+        summary.bounds.add({point.x, point.y, slice.z});
+      }
+    }
+  }
+  summary.size.slices = stack.size();
+  for (auto& [label, size] : summary.labels) size = size_of(stack, label);
+  std::ranges::sort(heights);
+  for (std::size_t i = 1; i < heights.size(); ++i) {
+    summary.gaps.push_back(heights[i] - heights[i - 1]);
+  }
+  std::ranges::sort(summary.gaps);
+  return summary;
+}
+
+Json to_json(const Bounds& bounds) {
+  if (bounds.is_empty()) return {};
+  return {{"low", bounds.low}, {"high", bounds.high}};
+}
+
+void print_bounds(const Bounds& bounds) {
+  if (bounds.is_empty()) return;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    std::cout << (axis == 0 ? "  " : ", ") << "xyz"[axis] << ' ' << rounded(bounds.low[axis])
+              << " to " << rounded(bounds.high[axis]);
+  }
+  std::cout << '\n';
+}
+
+/// `loft info STACK --json`: schema "loft-info", schema_version 1, file, kind "stack", counts,
+/// bounds (low and high corner), gaps (min, median, max; null for one slice), labels.
+Json to_json(const StackSummary& summary) {
+  Json json;
+  json["kind"] = "stack";
+  json["slices"] = summary.size.slices;
+  json["empty_slices"] = summary.empty_slices;
+  json["contours"] = summary.size.contours;
+  json["vertices"] = summary.size.vertices;
+  json["bounds"] = to_json(summary.bounds);
+  const std::vector<double>& gaps = summary.gaps;
+  json["gaps"] =
+      gaps.empty()
+          ? Json()
+          : Json{{"min", gaps.front()}, {"median", gaps[gaps.size() / 2]}, {"max", gaps.back()}};
+  json["labels"] = Json::array();
+  for (const auto& [label, size] : summary.labels) {
+    json["labels"].push_back({{"label", label},
+                              {"slices", size.slices},
+                              {"contours", size.contours},
+                              {"vertices", size.vertices}});
+  }
+  return json;
+}
+
+void print_size(const StackSize& size) {
+  std::cout << grouped(size.slices) << " slices, " << grouped(size.contours) << " contours, "
+            << grouped(size.vertices) << " vertices";
+}
+
+void print_stack(const StackSummary& summary) {
+  std::cout << "  ";
+  print_size(summary.size);
+  if (summary.empty_slices > 0) std::cout << ", " << summary.empty_slices << " slices empty";
+  std::cout << '\n';
+  print_bounds(summary.bounds);
+  if (const std::vector<double>& gaps = summary.gaps; !gaps.empty()) {
+    std::cout << "  gaps between slices " << rounded(gaps.front()) << " to " << rounded(gaps.back())
+              << ", median " << rounded(gaps[gaps.size() / 2]) << '\n';
+  }
+  for (const auto& [label, size] : summary.labels) {
+    if (label.empty() && summary.labels.size() == 1) continue;
+    std::cout << "  label '" << label << "': ";
+    print_size(size);
+    std::cout << '\n';
+  }
+}
+
+struct MeshSummary {
+  std::string label;
+  Measures measures;
+  Bounds bounds;
+};
+
+std::vector<MeshSummary> summarise(const std::vector<io::LabelledMesh>& meshes) {
+  std::vector<MeshSummary> summaries;
+  for (const auto& [label, mesh] : meshes) {
+    MeshSummary summary{label, measure(mesh), {}};
+    for (const Vec3& point : mesh.points) summary.bounds.add(point);
+    summaries.push_back(std::move(summary));
+  }
+  return summaries;
+}
+
+/// `loft info MESH --json`: schema "loft-info", schema_version 1, file, kind "mesh", parts (label,
+/// counts and measures, bounds).
+Json to_json(const std::vector<MeshSummary>& summaries) {
+  Json json;
+  json["kind"] = "mesh";
+  json["parts"] = Json::array();
+  for (const MeshSummary& summary : summaries) {
+    Json part;
+    part["label"] = summary.label;
+    add_measures(part, summary.measures);
+    part["bounds"] = to_json(summary.bounds);
+    json["parts"].push_back(std::move(part));
+  }
+  return json;
+}
+
+void print_meshes(const std::vector<MeshSummary>& summaries) {
+  for (const auto& [label, measures, bounds] : summaries) {
+    std::cout << "  " << (label.empty() ? "" : "label '" + label + "': ") << describe(measures)
+              << '\n';
+    print_bounds(bounds);
+  }
+}
+
+}  // namespace
+
+ExitCode run(const InfoCommand& command) {
+  Json json;
+  json["schema"] = "loft-info";
+  json["schema_version"] = 1;
+  json["file"] = command.file.string();
+  const auto show = [&](const auto& summary, const auto& print_summary) {
+    if (command.json) {
+      json.update(to_json(summary));
+      std::cout << print(json) << '\n';
+    } else {
+      std::cout << command.file.string() << '\n';
+      print_summary(summary);
+    }
+  };
+  if (io::is_slice_file(command.file)) {
+    show(summarise(io::read_slices(command.file)), print_stack);
+  } else if (io::is_mesh_file(command.file)) {
+    show(summarise(io::read_meshes(command.file)), print_meshes);
+  } else {
+    throw io::UnknownFormat(command.file, io::slice_extensions() + ' ' + io::mesh_extensions());
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace loft::app

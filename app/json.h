@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "reconstruct/measure.h"
+
+namespace loft::app {
+
+/// Keys stay in the order in which they were added.
+using Json = nlohmann::ordered_json;
+
+/// The report as text; bytes that are not UTF-8 (file names) are replaced.
+inline std::string print(const Json& json) {
+  return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+/// vertices, faces, components, genus, area, volume.
+inline void add_measures(Json& json, const Measures& measures) {
+  json["vertices"] = measures.vertices;
+  json["faces"] = measures.faces;
+  json["components"] = measures.components;
+  json["genus"] = measures.genus;
+  json["area"] = measures.area;
+  json["volume"] = measures.volume;
+}
+
+}  // namespace loft::app

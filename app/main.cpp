@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <new>
+#include <string>
+
+#include "app/commands.h"
+#include "app/terminal.h"
+#include "app/unit.h"
+#include "io/file.h"
+#include "io/meshes.h"
+#include "io/slices.h"
+#include "io/surfaces.h"
+#include "io/version.h"
+#include "reconstruct/reconstruct.h"
+
+namespace {
+
+using namespace loft::app;
+
+std::string footer() {
+  return "Examples:\n"
+         "  loft reconstruct skull.ndjson -o skull.glb\n"
+         "  loft reconstruct a.ndjson b.ndjson -o both.ply -o both.glb --unit um --json\n"
+         "  loft check skull.ply --stack skull.ndjson\n"
+         "  loft info skull.ndjson\n"
+         "\n"
+         "Stacks: NDJSON, a slice a line, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}; a "
+         "contour\n"
+         "is closed without repeating its first point; optional \"labels\": a name a contour, "
+         "each\n"
+         "label is reconstructed on its own. '-' reads standard input.\n"
+         "  stacks " +
+         loft::io::slice_extensions() + "; surfaces out " + loft::io::surface_extensions() +
+         "\n"
+         "\n"
+         "Exit codes: 0 ok, 1 check failed, 2 usage, 3 bad input, 4 cannot write, 130 "
+         "interrupted.\n"
+         "Results go to stdout, words to stderr. NO_COLOR is respected.";
+}
+
+/// A check for CLI11: the text says what is wrong, empty if nothing is.
+std::string complain_of_unit(const std::string& unit) {
+  if (metres_per_unit(unit)) return {};
+  return "'" + unit + "' is no unit; known are " + std::string(unit_names);
+}
+
+/// Adds `loft reconstruct`; the command is ready when the line has been parsed.
+CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
+  CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
+  sub->add_option("IN", command.inputs, "Stack files, or - for standard input")->required();
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, " + loft::io::surface_extensions() + "; may be repeated")
+      ->required()
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_option_function<std::string>(
+         "--fill",
+         [&command](const std::string& fill) {
+           command.options.fill = fill == "nonzero" ? loft::Fill::nonzero : loft::Fill::even_odd;
+         },
+         "What is inside: nested contours are holes (evenodd, default), or overlapping ones make "
+         "their union (nonzero)")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"evenodd", "nonzero"}));
+  sub->add_option_function<std::string>(
+         "--cap",
+         [&command](const std::string& cap) {
+           command.options.cap = cap == "flat"   ? loft::Cap::flat
+                                 : cap == "dome" ? loft::Cap::dome
+                                                 : loft::Cap::open;
+         },
+         "What closes the first and last slice (default flat)")
+      ->type_name("CAP")
+      ->check(CLI::IsMember({"flat", "dome", "open"}));
+  sub->add_option_function<std::string>(
+         "--unit",
+         [&command](const std::string& unit) { command.metres_per_unit = *metres_per_unit(unit); },
+         "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
+      ->type_name("UNIT")
+      ->check(CLI::Validator(complain_of_unit, ""));
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  return sub;
+}
+
+CLI::App* add_check(CLI::App& app, CheckCommand& command) {
+  CLI::App* sub =
+      app.add_subcommand("check",
+                         "Tell whether a mesh bounds a valid solid: closed, manifold, oriented, no "
+                         "degenerate face, no self-intersection; exit code 1 if not");
+  sub->add_option("MESH", command.mesh, "Mesh file, " + loft::io::mesh_extensions())->required();
+  sub->add_option("--stack", command.stack,
+                  "Also: is every contour vertex and edge of this stack in the mesh, exactly?");
+  sub->add_flag("--json", command.json, "Print the result as one JSON object");
+  return sub;
+}
+
+CLI::App* add_info(CLI::App& app, InfoCommand& command) {
+  CLI::App* sub = app.add_subcommand("info", "Show counts, bounds, gaps and labels of a file");
+  sub->add_option("FILE", command.file, "A stack or a mesh")->required();
+  sub->add_flag("--json", command.json, "Print the result as one JSON object");
+  return sub;
+}
+
+ExitCode run_program(int argc, char** argv) {
+  CLI::App app("Closed surfaces from stacks of planar contours", "loft");
+  app.set_version_flag("--version", std::string(loft::io::generator()));
+  app.footer(footer());
+  app.require_subcommand(1);
+  ReconstructCommand reconstruct;
+  CheckCommand check;
+  InfoCommand info;
+  const CLI::App* reconstruct_app = add_reconstruct(app, reconstruct);
+  const CLI::App* check_app = add_check(app, check);
+  add_info(app, info);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? ExitCode::ok : ExitCode::usage;
+  }
+  if (reconstruct_app->parsed()) return run(reconstruct);
+  return check_app->parsed() ? run(check) : run(info);
+}
+
+ExitCode fail(const char* what, ExitCode code) {
+  Terminal().complain(what);
+  return code;
+}
+
+/// Every failure has its exit code.
+ExitCode run_safely(int argc, char** argv) {
+  try {
+    return run_program(argc, argv);
+  } catch (const UsageError& error) {
+    return fail(error.what(), ExitCode::usage);
+  } catch (const loft::io::UnknownFormat& error) {
+    return fail(error.what(), ExitCode::usage);
+  } catch (const loft::InputError& error) {
+    return fail(error.what(), ExitCode::bad_input);
+  } catch (const loft::io::FileError& error) {
+    const bool is_reading = error.access() == loft::io::Access::read;
+    return fail(error.what(), is_reading ? ExitCode::bad_input : ExitCode::cannot_write);
+  } catch (const loft::Cancelled&) {
+    return fail("interrupted; nothing was written", ExitCode::interrupted);
+  } catch (const loft::Error& error) {
+    return fail(error.what(), ExitCode::cannot_write);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", ExitCode::bad_input);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::ios::sync_with_stdio(false);
+  return static_cast<int>(run_safely(argc, argv));
+}

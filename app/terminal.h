@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace loft::app {
+
+/// Words for the user, on stderr. Coloured, and with a progress bar, where that is a terminal;
+/// NO_COLOR and TERM=dumb are respected.
+class Terminal {
+ public:
+  /// A quiet one says nothing but errors.
+  explicit Terminal(bool quiet = false);
+  ~Terminal() { clear_progress(); }
+  Terminal(const Terminal&) = delete;
+  Terminal& operator=(const Terminal&) = delete;
+
+  void say(std::string_view line);
+  void warn(std::string_view line);
+  /// One line each, `error: ` in front.
+  void complain(std::string_view lines);
+
+  /// Draws the bar, from 0 to 1, if it has moved; clear_progress() takes it away.
+  void show_progress(std::string_view activity, double fraction);
+  void clear_progress();
+
+ private:
+  void print(std::string_view colour, std::string_view prefix, std::string_view line);
+
+  bool quiet_;
+  bool has_bar_;
+  bool has_colour_;
+  std::string bar_;  // what is drawn now
+};
+
+}  // namespace loft::app

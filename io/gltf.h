@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <ostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/labelled_mesh.h"
+#include "io/part.h"
+
+namespace loft::io {
+
+/// Writes binary glTF 2.0 that passes the Khronos validator with no error and no warning.
+///
+/// One node and mesh a part, named by its label (`surface` without one); +Y up, so that the slices'
+/// z points up: (x, y, z) becomes (x, z, -y); metres. POSITION is `float` relative to the centre of
+/// all parts, which goes into the nodes' translation in `double`: coordinates far from zero
+/// survive. NORMAL as shade() gives it. Not metallic, a colour a part, double-sided where it is
+/// open. `asset.extras` holds `metres_per_unit`, `up`, and the sources and settings of the options.
+/// Throws Error where the surfaces are too large for `float` coordinates or 4 GiB.
+void write_glb(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
+
+/// The same as glTF JSON, in one file: the buffer is embedded (base64).
+void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
+
+/// Reads the triangles of a glTF or GLB file, node transforms applied, turned back to z up:
+/// (x, y, z) becomes (x, -z, y). Vertices that were doubled at sharp edges become one again (see
+/// sew_seams()). From files that loft wrote come one mesh a node, in the unit of the stack; from
+/// others one mesh in metres, since there a node need not be a solid.
+/// Throws FileError, and InputError that names the file. Not read: sparse, compressed or quantised
+/// positions (an error says so), points and lines (left out).
+[[nodiscard]] std::vector<LabelledMesh> read_gltf(const std::filesystem::path& path);
+
+}  // namespace loft::io

@@ -1,0 +1,283 @@
+// SPDX-License-Identifier: MIT
+#include <tiny_gltf.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "io/affine.h"
+#include "io/file.h"
+#include "io/gltf.h"
+#include "io/little_endian.h"
+#include "io/polygons.h"
+#include "io/seam.h"
+#include "reconstruct/defect.h"
+
+namespace loft::io {
+
+namespace {
+
+/// A node's own transform: its matrix (column after column), or translation * rotation * scale.
+Affine transform(const tinygltf::Node& node) {
+  Affine result;
+  if (node.matrix.size() == 16) {
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column < 4; ++column) {
+        result.rows[row][column] = node.matrix[4 * column + row];
+      }
+    }
+    return result;
+  }
+  if (const auto& q = node.rotation; q.size() == 4) result = rotation(q[0], q[1], q[2], q[3]);
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3 && node.scale.size() == 3; ++column) {
+      result.rows[row][column] *= node.scale[column];
+    }
+    if (node.translation.size() == 3) result.rows[row][3] = node.translation[row];
+  }
+  return result;
+}
+
+/// An element of a list of the model, by an index that the file gives.
+template <class Element>
+const Element* at(const std::vector<Element>& list, int index) {
+  const auto place = static_cast<std::size_t>(index);
+  return index >= 0 && place < list.size() ? &list[place] : nullptr;
+}
+
+/// The elements of an accessor, proved to lie within their buffer.
+struct Elements {
+  const char* first = nullptr;
+  std::size_t count = 0;
+  std::size_t stride = 0;
+  int component_type = 0;
+};
+
+class Reader {
+ public:
+  Reader(const tinygltf::Model& model, std::string name) : model_(model), name_(std::move(name)) {}
+
+  std::vector<LabelledMesh> read() {
+    read_extras();
+    for (const int root : roots()) visit(root, Affine(), 0);
+    require_valid(polygons_.mesh, name_);
+    std::vector<LabelledMesh> meshes = split(std::move(polygons_));
+    for (LabelledMesh& part : meshes) part.mesh = sew_seams(part.mesh);
+    return meshes;
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(name_ + ": " + message);
+  }
+
+  void read_extras() {
+    is_ours_ = model_.asset.generator.starts_with("loft ");
+    if (!is_ours_ || !model_.asset.extras.Has("metres_per_unit")) return;
+    const tinygltf::Value& value = model_.asset.extras.Get("metres_per_unit");
+    if (!value.IsNumber()) return;
+    const double unit = value.GetNumberAsDouble();
+    if (unit > 0 && unit < std::numeric_limits<double>::infinity()) metres_per_unit_ = unit;
+  }
+
+  /// The nodes of the scene that is shown; without scenes, those that are nobody's children.
+  [[nodiscard]] std::vector<int> roots() const {
+    if (const auto* scene = at(model_.scenes, model_.defaultScene)) return scene->nodes;
+    if (!model_.scenes.empty()) return model_.scenes.front().nodes;
+    std::vector<bool> is_child(model_.nodes.size());
+    for (const tinygltf::Node& node : model_.nodes) {
+      for (const int child : node.children) {
+        if (at(model_.nodes, child) != nullptr) is_child[static_cast<std::size_t>(child)] = true;
+      }
+    }
+    std::vector<int> result;
+    for (std::size_t i = 0; i < is_child.size(); ++i) {
+      if (!is_child[i]) result.push_back(static_cast<int>(i));
+    }
+    return result;
+  }
+
+  void visit(int index, const Affine& above, int depth) {
+    constexpr int deepest = 1000;
+    const tinygltf::Node* node = at(model_.nodes, index);
+    if (node == nullptr) fail("there is no node " + std::to_string(index));
+    // glTF's nodes are trees; without this check a small file could ask for endless work.
+    if (depth > deepest || ++visits_ > model_.nodes.size()) fail("its nodes are no trees");
+    const Affine map = above * transform(*node);
+    if (const auto* mesh = at(model_.meshes, node->mesh)) read_mesh(*mesh, map, node->name);
+    for (const int child : node->children) visit(child, map, depth + 1);
+  }
+
+  void read_mesh(const tinygltf::Mesh& mesh, const Affine& map, const std::string& label) {
+    std::uint32_t number = 0;
+    if (is_ours_) {
+      number = static_cast<std::uint32_t>(polygons_.labels.size());
+      polygons_.labels.push_back(label == "surface" ? "" : label);
+    }
+    for (const tinygltf::Primitive& primitive : mesh.primitives) {
+      read_primitive(primitive, map, number);
+    }
+  }
+
+  void read_primitive(const tinygltf::Primitive& primitive, const Affine& map,
+                      std::uint32_t label) {
+    const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+    if (mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines
+    const auto found = primitive.attributes.find("POSITION");
+    if (found == primitive.attributes.end()) fail("triangles without POSITION");
+    const Elements positions = elements(found->second, TINYGLTF_TYPE_VEC3);
+    if (positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) fail("POSITION is not float");
+
+    const std::vector<std::uint32_t> corners = read_indices(primitive, positions.count);
+    const std::size_t first = polygons_.mesh.points.size();
+    if (first + positions.count >= 0xffff'ffff) fail("more than 2^32 vertices");
+    for (std::size_t i = 0; i < positions.count; ++i) add_point(positions, i, map);
+    const bool is_mirrored = determinant(map) < 0;
+    add_triangles(corners, mode, static_cast<std::uint32_t>(first), is_mirrored, label);
+  }
+
+  void add_point(const Elements& positions, std::size_t i, const Affine& map) {
+    const char* place = positions.first + i * positions.stride;
+    Vec3 point{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      point[axis] = static_cast<double>(get<float>(place + axis * sizeof(float)));
+    }
+    const Vec3 placed = map(point);
+    polygons_.mesh.points.push_back({placed[0] / metres_per_unit_, -placed[2] / metres_per_unit_,
+                                     placed[1] / metres_per_unit_});
+  }
+
+  void add_triangles(std::span<const std::uint32_t> corners, int mode, std::uint32_t first,
+                     bool is_mirrored, std::uint32_t label) {
+    const auto add = [&](std::size_t i, std::size_t j, std::size_t k) {
+      if (is_mirrored) std::swap(j, k);
+      const std::array triangle{first + corners[i], first + corners[j], first + corners[k]};
+      polygons_.add(triangle, label);
+    };
+    if (mode == TINYGLTF_MODE_TRIANGLES) {
+      for (std::size_t i = 2; i < corners.size(); i += 3) add(i - 2, i - 1, i);
+    } else if (mode == TINYGLTF_MODE_TRIANGLE_STRIP) {
+      for (std::size_t i = 2; i < corners.size(); ++i) {
+        i % 2 == 0 ? add(i - 2, i - 1, i) : add(i - 1, i - 2, i);
+      }
+    } else {
+      for (std::size_t i = 2; i < corners.size(); ++i) add(0, i - 1, i);
+    }
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t> read_indices(const tinygltf::Primitive& primitive,
+                                                        std::size_t vertex_count) const {
+    std::vector<std::uint32_t> result;
+    if (primitive.indices < 0) {
+      for (std::uint32_t i = 0; i < vertex_count; ++i) result.push_back(i);
+      return result;
+    }
+    const Elements indices = elements(primitive.indices, TINYGLTF_TYPE_SCALAR);
+    for (std::size_t i = 0; i < indices.count; ++i) {
+      const char* place = indices.first + i * indices.stride;
+      const std::uint32_t index = read_index(place, indices.component_type);
+      if (index >= vertex_count) fail("a triangle names vertex " + std::to_string(index));
+      result.push_back(index);
+    }
+    return result;
+  }
+
+  [[nodiscard]] std::uint32_t read_index(const char* place, int component_type) const {
+    switch (component_type) {
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return get<std::uint8_t>(place);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return get<std::uint16_t>(place);
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return get<std::uint32_t>(place);
+      default:
+        fail("vertex numbers of a wrong type");
+    }
+  }
+
+  [[nodiscard]] Elements elements(int index, int type) const {
+    const tinygltf::Accessor* accessor = at(model_.accessors, index);
+    if (accessor == nullptr || accessor->type != type)
+      fail("an accessor is missing or of a wrong type");
+    if (accessor->sparse.isSparse) fail("sparse accessors cannot be read");
+    const tinygltf::BufferView* view = at(model_.bufferViews, accessor->bufferView);
+    if (view == nullptr) fail("compressed or missing geometry cannot be read");
+    const tinygltf::Buffer* buffer = at(model_.buffers, view->buffer);
+    const int component_size =
+        tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType));
+    const int stride = accessor->ByteStride(*view);
+    if (buffer == nullptr || component_size <= 0 || stride <= 0) fail("a buffer view is broken");
+
+    Elements result;
+    result.count = accessor->count;
+    result.stride = static_cast<std::size_t>(stride);
+    result.component_type = accessor->componentType;
+    const auto size = static_cast<std::size_t>(component_size) *
+                      (type == TINYGLTF_TYPE_VEC3 ? std::size_t{3} : std::size_t{1});
+    const std::size_t available = available_bytes(*accessor, *view, *buffer);
+    if (result.count == 0 || size > available ||
+        (result.count - 1) > (available - size) / result.stride) {
+      fail("an accessor reaches beyond its buffer");
+    }
+    result.first = reinterpret_cast<const char*>(buffer->data.data()) + view->byteOffset +
+                   accessor->byteOffset;
+    return result;
+  }
+
+  /// From the accessor's first byte to the end of its view or buffer; 0 where it begins beyond.
+  static std::size_t available_bytes(const tinygltf::Accessor& accessor,
+                                     const tinygltf::BufferView& view,
+                                     const tinygltf::Buffer& buffer) {
+    if (view.byteOffset > buffer.data.size()) return 0;
+    const std::size_t in_buffer = buffer.data.size() - view.byteOffset;
+    const std::size_t in_view = std::min(view.byteLength, in_buffer);
+    return accessor.byteOffset > in_view ? 0 : in_view - accessor.byteOffset;
+  }
+
+  const tinygltf::Model& model_;
+  std::string name_;
+  Polygons polygons_;
+  bool is_ours_ = false;
+  double metres_per_unit_ = 1;
+  std::size_t visits_ = 0;
+};
+
+/// Images show nothing of the shape: they are not decoded.
+bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
+                  int, void*) {
+  return true;
+}
+
+std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
+
+}  // namespace
+
+std::vector<LabelledMesh> read_gltf(const std::filesystem::path& path) {
+  const std::string content = read_file(path);
+  const std::string name = path.string();
+  if (content.size() > std::numeric_limits<unsigned>::max()) {
+    throw InputError(name + ": larger than 4 GiB");
+  }
+  const auto size = static_cast<unsigned>(content.size());
+  tinygltf::TinyGLTF loader;
+  loader.SetImageLoader(ignore_image, nullptr);
+  tinygltf::Model model;
+  std::string error;
+  std::string warning;
+  const std::string folder = path.parent_path().string();
+  const bool is_loaded =
+      content.starts_with("glTF")
+          ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                        reinterpret_cast<const unsigned char*>(content.data()),
+                                        size, folder)
+          : loader.LoadASCIIFromString(&model, &error, &warning, content.data(), size, folder);
+  if (!is_loaded) {
+    throw InputError(name + ": not glTF: " + (error.empty() ? "cut off" : first_line(error)));
+  }
+  return Reader(model, name).read();
+}
+
+}  // namespace loft::io

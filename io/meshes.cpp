@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+#include "io/meshes.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+
+#include "io/file.h"
+#include "io/gltf.h"
+#include "io/obj.h"
+#include "io/off.h"
+#include "io/ply.h"
+#include "io/stl.h"
+
+namespace loft::io {
+
+namespace {
+
+using Parser = std::vector<LabelledMesh> (*)(const std::string& content, std::string_view name);
+
+template <Parser parse>
+std::vector<LabelledMesh> read_with(const std::filesystem::path& path) {
+  return parse(read_file(path), path.string());
+}
+
+struct Format {
+  std::string_view extension;
+  std::vector<LabelledMesh> (*read)(const std::filesystem::path&);
+  bool keeps_coordinates;
+};
+
+constexpr std::array formats{
+    Format{".ply", read_with<read_ply>, true}, Format{".obj", read_with<read_obj>, true},
+    Format{".off", read_with<read_off>, true}, Format{".stl", read_with<read_stl>, false},
+    Format{".glb", read_gltf, false},          Format{".gltf", read_gltf, false},
+};
+
+const Format* find_format(const std::filesystem::path& path) {
+  const auto found = std::ranges::find(formats, extension(path), &Format::extension);
+  return found == formats.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string mesh_extensions() {
+  std::string result;
+  for (const Format& format : formats) {
+    if (!result.empty()) result += ' ';
+    result += format.extension;
+  }
+  return result;
+}
+
+bool is_mesh_file(const std::filesystem::path& path) { return find_format(path) != nullptr; }
+
+bool keeps_coordinates(const std::filesystem::path& path) {
+  const Format* const format = find_format(path);
+  return format != nullptr && format->keeps_coordinates;
+}
+
+std::vector<LabelledMesh> read_meshes(const std::filesystem::path& path) {
+  const Format* const format = find_format(path);
+  if (format == nullptr) throw UnknownFormat(path, mesh_extensions());
+  return format->read(path);
+}
+
+Mesh read_mesh(const std::filesystem::path& path) {
+  std::vector<LabelledMesh> parts = read_meshes(path);
+  Mesh result = std::move(parts.front().mesh);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(result.points.size());
+    const Mesh& mesh = parts[i].mesh;
+    result.points.insert(result.points.end(), mesh.points.begin(), mesh.points.end());
+    for (const auto& [a, b, c] : mesh.faces)
+      result.faces.push_back({first + a, first + b, first + c});
+  }
+  return result;
+}
+
+}  // namespace loft::io

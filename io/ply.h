@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "io/labelled_mesh.h"
+#include "io/part.h"
+
+namespace loft::io {
+
+/// Writes one binary little-endian PLY: coordinates as `double`, exactly those of the surface.
+///
+/// Vertex properties tell where a vertex comes from, as Origin does: `uchar kind` (0 contour,
+/// 1 cleaning, 2 crossing, 3 steiner), `int slice`, `int contour`, `int point`, -1 for none. Face
+/// properties: `uchar kind` (0 sheet, 1 wall, 2 bottom cap, 3 top cap), `int slab`. Where parts
+/// have labels, both have `int label`, named by header lines `comment label 0 heart`.
+void write_ply(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
+
+/// Reads ASCII and binary PLY of either byte order, any number types and any further elements and
+/// properties. Polygons become triangle fans. The labels that write_ply() wrote split the mesh.
+/// Throws InputError that names `name` and the place.
+[[nodiscard]] std::vector<LabelledMesh> read_ply(const std::string& content, std::string_view name);
+
+}  // namespace loft::io

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "reconstruct/mesh.h"
+#include "reconstruct/surface.h"
+
+namespace loft::io {
+
+/// A surface as a renderer wants it: a normal a vertex, vertices at sharp edges doubled.
+struct ShadedMesh {
+  std::vector<Vec3> points;
+  std::vector<Vec3> normals;  ///< unit length
+  std::vector<std::array<std::uint32_t, 3>> faces;
+};
+
+/// Smooth normals, weighted by the angle of each face at the vertex; the sides and the two end caps
+/// have vertices of their own, so that the edges between them look sharp. Every normal has unit
+/// length: where the faces around a vertex cancel, it is that of the widest one.
+/// Precondition: no deleted elements. Cost: O(n).
+[[nodiscard]] ShadedMesh shade(const Surface& surface);
+
+}  // namespace loft::io

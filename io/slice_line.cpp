@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: MIT
+#include "io/slice_line.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "io/json_reader.h"
+#include "io/text.h"
+
+namespace loft::io {
+
+namespace {
+
+std::string name(JsonKind kind) {
+  switch (kind) {
+    case JsonKind::object:
+      return "an object";
+    case JsonKind::list:
+      return "a list";
+    case JsonKind::string:
+      return "a string";
+    case JsonKind::number:
+      return "a number";
+    case JsonKind::boolean:
+      return "true or false";
+    case JsonKind::null:
+      return "null";
+    case JsonKind::not_finite:
+      break;
+  }
+  return "NaN";
+}
+
+class SliceReader {
+ public:
+  explicit SliceReader(std::string_view text) : json_(text) {}
+
+  SliceLine read() {
+    try {
+      read_slice();
+    } catch (const JsonError& error) {
+      complain("broken JSON at column " + std::to_string(error.column()) + ": " + error.what());
+    }
+    return std::move(line_);
+  }
+
+ private:
+  void complain(const std::string& problem) { line_.problems.push_back(problem); }
+
+  /// Leaves out the value that comes next and says what should have been there.
+  void reject(const std::string& place, const std::string& wanted) {
+    const JsonKind kind = json_.peek();
+    json_.skip();
+    if (kind == JsonKind::not_finite) {
+      complain(place + std::string(json_.last_word()) + " is not a number; write " + wanted);
+    } else {
+      complain(place + "expected " + wanted + ", found " + name(kind));
+    }
+  }
+
+  void read_slice() {
+    const std::string wanted = "a slice {\"z\": ..., \"contours\": [...]}";
+    if (json_.peek() != JsonKind::object) return reject("", wanted);
+    json_.begin_object();
+    while (const auto key = json_.next_key()) read_member(*key);
+    json_.end();
+    check_members();
+  }
+
+  void read_member(const std::string& key) {
+    if (key == "z") {
+      has_z_ = true;
+      line_.z = read_number([] { return std::string("\"z\": "); }, "a finite number");
+      line_.slice.z = line_.z.value_or(0);
+    } else if (key == "contours") {
+      has_contours_ = true;
+      read_contours();
+    } else if (key == "labels") {
+      has_labels_ = true;
+      read_labels();
+    } else if (key == "op") {
+      read_op();
+    } else {
+      json_.skip();
+    }
+  }
+
+  /// A finite number, or none and a complaint. `place` makes the text that says where.
+  template <class Place>
+  std::optional<double> read_number(const Place& place, const char* wanted) {
+    if (json_.peek() != JsonKind::number) {
+      reject(place(), wanted);
+      return std::nullopt;
+    }
+    const double value = json_.number();
+    if (std::isfinite(value)) return value;
+    const std::string word(json_.last_word());
+    complain(place() + word + " is too large for a number; write " + wanted);
+    return std::nullopt;
+  }
+
+  void read_op() {
+    if (json_.peek() != JsonKind::string) return reject("\"op\": ", "\"insert\"");
+    const std::string op = json_.string();
+    if (op == "replace" || op == "remove") {
+      complain("\"op\": \"" + op + "\" is an edit; a stack holds its slices only, without \"op\"");
+    } else if (op != "insert") {
+      complain("\"op\": " + in_quotes(op) + " is unknown; leave \"op\" out");
+    }
+  }
+
+  void read_labels() {
+    labels_.clear();
+    if (json_.peek() != JsonKind::list) return reject("\"labels\": ", "a list of names");
+    json_.begin_list();
+    while (json_.next_item()) {
+      const bool is_name = json_.peek() == JsonKind::string;
+      if (!is_name) reject("label " + std::to_string(labels_.size()) + ": ", "a name in quotes");
+      labels_.push_back(is_name ? json_.string() : std::string());
+    }
+  }
+
+  void read_contours() {
+    line_.slice.contours.clear();
+    if (json_.peek() != JsonKind::list) return reject("\"contours\": ", "a list of contours");
+    json_.begin_list();
+    while (json_.next_item()) {
+      line_.slice.contours.emplace_back();
+      read_contour(line_.slice.contours.back());
+    }
+  }
+
+  [[nodiscard]] std::string contour_place() const {
+    return "contour " + std::to_string(line_.slice.contours.size() - 1) + ' ';
+  }
+
+  [[nodiscard]] std::string point_place() const {
+    const std::size_t point = line_.slice.contours.back().points.size();
+    return contour_place() + "point " + std::to_string(point) + ": ";
+  }
+
+  void read_contour(Contour& contour) {
+    if (json_.peek() != JsonKind::list) return reject(contour_place(), "a list of points");
+    json_.begin_list();
+    // A bad point keeps its place, so that the numbers of those behind it are right.
+    while (json_.next_item()) contour.points.push_back(read_point());
+  }
+
+  cdt::Point read_point() {
+    if (json_.peek() != JsonKind::list) {
+      reject(point_place(), "a point [x, y]");
+      return {};
+    }
+    const auto place = [this] { return point_place(); };
+    std::array<double, 2> coordinates{};
+    std::size_t count = 0;
+    json_.begin_list();
+    for (; json_.next_item(); ++count) {
+      const auto value = read_number(place, "a finite number or leave the point out");
+      if (count < coordinates.size()) coordinates[count] = value.value_or(0);
+    }
+    if (count != coordinates.size()) {
+      complain(point_place() + "has " + std::to_string(count) + " coordinates instead of [x, y]");
+    }
+    return {coordinates[0], coordinates[1]};
+  }
+
+  /// What only the whole line can tell.
+  void check_members() {
+    std::vector<Contour>& contours = line_.slice.contours;
+    if (!has_z_) complain("\"z\" is missing; a slice needs its height");
+    if (!has_contours_) complain("\"contours\" is missing; an empty slice has \"contours\": []");
+    if (has_labels_ && labels_.size() != contours.size()) {
+      return complain(std::to_string(labels_.size()) + " labels for " +
+                      std::to_string(contours.size()) + " contours; each contour needs one");
+    }
+    for (std::size_t i = 0; i < labels_.size(); ++i) contours[i].label = std::move(labels_[i]);
+  }
+
+  JsonReader json_;
+  SliceLine line_;
+  std::vector<std::string> labels_;
+  bool has_z_ = false;
+  bool has_contours_ = false;
+  bool has_labels_ = false;
+};
+
+}  // namespace
+
+SliceLine parse_slice_line(std::string_view line) { return SliceReader(line).read(); }
+
+}  // namespace loft::io

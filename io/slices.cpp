@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+#include "io/slices.h"
+
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iostream>
+#include <iterator>
+
+#include "io/file.h"
+#include "io/slices_json.h"
+#include "reconstruct/defect.h"
+
+namespace loft::io {
+
+namespace {
+
+using Reader = std::vector<Slice> (*)(std::istream&, std::string_view name);
+
+struct Format {
+  std::string_view extension;
+  Reader read;
+};
+
+constexpr std::array formats{
+    Format{".ndjson", read_slices_json},
+    Format{".jsonl", read_slices_json},
+    Format{".json", read_slices_json},
+};
+
+const Format* find_format(const std::filesystem::path& path) {
+  const auto found = std::ranges::find(formats, extension(path), &Format::extension);
+  return found == formats.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+std::string slice_extensions() {
+  std::string result;
+  for (const Format& format : formats) {
+    if (!result.empty()) result += ' ';
+    result += format.extension;
+  }
+  return result;
+}
+
+bool is_slice_file(const std::filesystem::path& path) {
+  return path == "-" || find_format(path) != nullptr;
+}
+
+std::vector<Slice> read_slices(const std::filesystem::path& path) {
+  if (path == "-") return read_slices_json(std::cin, "standard input");
+
+  if (std::filesystem::is_directory(path)) {
+    throw FileError(Access::read, path, "it is a folder");
+  }
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(Access::read, path, last_cause());
+  const Format* const format = find_format(path);
+  if (format == nullptr) throw UnknownFormat(path, slice_extensions());
+  return format->read(file, path.string());
+}
+
+std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths) {
+  std::vector<Slice> slices;
+  std::string problems;
+  for (const std::filesystem::path& path : paths) {
+    try {
+      std::vector<Slice> some = read_slices(path);
+      std::ranges::move(some, std::back_inserter(slices));
+    } catch (const InputError& error) {
+      if (!problems.empty()) problems += '\n';
+      problems += error.what();
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  return slices;
+}
+
+}  // namespace loft::io

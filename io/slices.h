@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reconstruct/slice.h"
+
+namespace loft::io {
+
+/// The slices of a stack file, in its order, just as they are written there: nothing is cleaned,
+/// sorted or merged. The extension chooses the reader; `-` is standard input, as NDJSON.
+///
+/// Throws FileError where the file cannot be read, UnknownFormat, and InputError that lists all bad
+/// lines; a file without any slice is bad, too.
+[[nodiscard]] std::vector<Slice> read_slices(const std::filesystem::path& path);
+
+/// The slices of several files one after the other. Bad lines of all of them are listed.
+[[nodiscard]] std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths);
+
+/// The extensions that read_slices() knows, in lower case: `.ndjson .jsonl .json`.
+[[nodiscard]] std::string slice_extensions();
+
+/// Whether read_slices() has a reader for this file, going by its name alone.
+[[nodiscard]] bool is_slice_file(const std::filesystem::path& path);
+
+}  // namespace loft::io

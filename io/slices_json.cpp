@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: MIT
+#include "io/slices_json.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+#include <utility>
+
+#include "io/file.h"
+#include "io/json_reader.h"
+#include "io/slice_line.h"
+#include "io/text.h"
+#include "reconstruct/defect.h"
+
+namespace loft::io {
+
+namespace {
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+/// Gathers problems as lines of one message, so many and no more.
+class Problems {
+ public:
+  void add(const std::string& problem) {
+    constexpr std::size_t shown = 20;
+    if (++count_ > shown) return;
+    if (!text_.empty()) text_ += '\n';
+    text_ += problem;
+  }
+
+  /// Throws InputError if there are any.
+  void raise(std::string_view name) const {
+    if (count_ == 0) return;
+    const auto shown = static_cast<std::size_t>(std::ranges::count(text_, '\n')) + 1;
+    if (shown == count_) throw InputError(text_);
+    throw InputError(text_ + '\n' + std::string(name) + ": and " + std::to_string(count_ - shown) +
+                     " more");
+  }
+
+ private:
+  std::string text_;
+  std::size_t count_ = 0;
+};
+
+bool is_blank(std::string_view line) {
+  return line.find_first_not_of(" \t\r") == std::string_view::npos;
+}
+
+/// `stack.ndjson:3: slice 2 (z = 2.5) `
+std::string place(std::string_view name, std::size_t line, std::size_t slice,
+                  const SliceLine& parsed) {
+  std::string result(name);
+  result += ':' + std::to_string(line) + ": slice " + std::to_string(slice);
+  if (parsed.z) {
+    result += " (z = ";
+    append_number(result, *parsed.z);
+    result += ')';
+  }
+  return result + ' ';
+}
+
+}  // namespace
+
+std::vector<Slice> read_slices_json(std::istream& in, std::string_view name) {
+  std::vector<Slice> slices;
+  Problems problems;
+  std::string line;
+  for (std::size_t number = 1; std::getline(in, line); ++number) {
+    if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    if (is_blank(line)) continue;
+    SliceLine parsed = parse_slice_line(line);
+    const std::string where = place(name, number, slices.size(), parsed);
+    for (const std::string& problem : parsed.problems) problems.add(where + problem);
+    slices.push_back(std::move(parsed.slice));
+  }
+  if (in.bad()) throw FileError(Access::read, std::filesystem::path(name), "read failed");
+  problems.raise(name);
+  if (slices.empty()) {
+    throw InputError(std::string(name) +
+                     ": no slices in it; expected lines {\"z\": ..., \"contours\": [...]}");
+  }
+  return slices;
+}
+
+namespace {
+
+void append_points(std::string& text, std::span<const cdt::Point> points) {
+  text += '[';
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    text += i == 0 ? "[" : ",[";
+    append_number(text, points[i].x);
+    text += ',';
+    append_number(text, points[i].y);
+    text += ']';
+  }
+  text += ']';
+}
+
+void append_labels(std::string& text, std::span<const Contour> contours) {
+  if (std::ranges::all_of(contours, [](const Contour& c) { return c.label.empty(); })) return;
+  text += ",\"labels\":[";
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    if (i > 0) text += ',';
+    append_json_string(text, contours[i].label);
+  }
+  text += ']';
+}
+
+}  // namespace
+
+void write_slices_json(std::ostream& out, std::span<const Slice> slices) {
+  for (const Slice& slice : slices) {
+    std::string line = "{\"z\":";
+    append_number(line, slice.z);
+    line += ",\"contours\":[";
+    for (std::size_t i = 0; i < slice.contours.size(); ++i) {
+      if (i > 0) line += ',';
+      append_points(line, slice.contours[i].points);
+    }
+    line += ']';
+    append_labels(line, slice.contours);
+    line += "}\n";
+    out << line;
+  }
+}
+
+}  // namespace loft::io

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: MIT
+#include "io/surfaces.h"
+
+#include <algorithm>
+#include <array>
+#include <ostream>
+#include <string_view>
+
+#include "io/atomic_file.h"
+#include "io/file.h"
+#include "io/gltf.h"
+#include "io/obj.h"
+#include "io/off.h"
+#include "io/ply.h"
+#include "io/stl.h"
+
+namespace loft::io {
+
+namespace {
+
+using Writer = void (*)(std::ostream&, std::span<const Part>, const WriteOptions&);
+
+struct Format {
+  std::string_view extension;
+  Writer write;
+};
+
+constexpr std::array formats{
+    Format{".glb", write_glb}, Format{".gltf", write_gltf}, Format{".ply", write_ply},
+    Format{".obj", write_obj}, Format{".stl", write_stl},   Format{".off", write_off},
+};
+
+const Format& find_format(const std::filesystem::path& path) {
+  const auto found = std::ranges::find(formats, extension(path), &Format::extension);
+  if (found == formats.end()) throw UnknownFormat(path, surface_extensions());
+  return *found;
+}
+
+}  // namespace
+
+std::string surface_extensions() {
+  std::string result;
+  for (const Format& format : formats) {
+    if (!result.empty()) result += ' ';
+    result += format.extension;
+  }
+  return result;
+}
+
+void check_writable(const std::filesystem::path& path) {
+  static_cast<void>(find_format(path));
+  const AtomicFile tried(path);
+}
+
+void write(const std::filesystem::path& path, std::span<const Part> parts,
+           const WriteOptions& options) {
+  const Format& format = find_format(path);
+  AtomicFile file(path);
+  format.write(file.stream(), parts, options);
+  file.commit();
+}
+
+}  // namespace loft::io

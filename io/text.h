@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <charconv>
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace loft::io {
+
+/// Appends a number with as few digits as give it back exactly; never depends on the locale.
+template <class Number>
+requires std::integral<Number> || std::floating_point<Number>
+void append_number(std::string& text, Number number) {
+  std::array<char, 32> digits;
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  text.append(digits.data(), end);
+}
+
+/// The text with every control character replaced, so that it stays on its line of a file.
+[[nodiscard]] inline std::string one_line(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '_';
+  }
+  return result;
+}
+
+/// A word of a file as messages show it: in quotes, on one line, not too much of it.
+[[nodiscard]] inline std::string in_quotes(std::string_view word) {
+  constexpr std::size_t enough = 40;
+  std::string result(1, '\'');
+  result += one_line(word.substr(0, enough));
+  result += word.size() > enough ? "...'" : "'";
+  return result;
+}
+
+}  // namespace loft::io

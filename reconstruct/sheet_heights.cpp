@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/sheet_heights.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace loft {
+
+namespace {
+
+using cdt::EdgeId;
+using cdt::Point;
+using cdt::TriangleId;
+using cdt::Triangulation;
+
+constexpr double steepness = 0.7;    // k in the header
+constexpr double highest_end = 0.7;  // of the slab
+
+/// Inner vertices keep that share of the slab's height away from the slices.
+constexpr double least_share = 1e-3;
+
+}  // namespace
+
+SheetHeights::SheetHeights(const Slab& slab)
+    : slab_(slab), sheet_of_(slab.overlay().triangle_count(), Origin::none) {}
+
+double SheetHeights::depth(EdgeId e, Point p) { return sheet(e).depth(p); }
+
+double SheetHeights::height(EdgeId e, Point p) {
+  const Sheet& sheet = this->sheet(e);
+  double share = 0;
+  if (sheet.upper.is_empty()) {
+    share = end_share(sheet, p);
+  } else if (sheet.lower.is_empty()) {
+    share = 1 - end_share(sheet, p);
+  } else {
+    const double lower = std::pow(sheet.lower.distance(p), steepness);
+    const double upper = std::pow(sheet.upper.distance(p), steepness);
+    share = lower / (lower + upper);
+  }
+  return slab_.lower().z + std::clamp(share, least_share, 1 - least_share) * slab_.height();
+}
+
+/// How far, as a share of the slab, the surface is from the slice that an end belongs to.
+double SheetHeights::end_share(const Sheet& sheet, Point p) const {
+  if (!(sheet.radius > 0)) return 0;
+  const double inwards = 1 - std::min(sheet.depth(p) / sheet.radius, 1.0);
+  return std::min(highest_end, sheet.radius / slab_.height()) * (1 - inwards * inwards);
+}
+
+const SheetHeights::Sheet& SheetHeights::sheet(EdgeId e) {
+  const TriangleId t = Triangulation::triangle(e);
+  if (sheet_of_[t.index()] == Origin::none) explore(t);
+  return sheets_[sheet_of_[t.index()]];
+}
+
+void SheetHeights::explore(TriangleId start) {
+  const Triangulation& mesh = slab_.overlay();
+  const auto id = static_cast<std::uint32_t>(sheets_.size());
+  std::vector<NearestSegment::Segment> bounds[2];
+  std::vector<Point> middles;
+  std::vector<TriangleId> front{start};
+  sheet_of_[start.index()] = id;
+  while (!front.empty()) {
+    const TriangleId t = front.back();
+    front.pop_back();
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(t, corner);
+      const Point a = mesh.point(mesh.from(e));
+      const Point b = mesh.point(mesh.to(e));
+      if (mesh.is_constrained(e)) {
+        for (const Level level : {Level::lower, Level::upper})
+          if (slab_.is_contour(e, level)) bounds[static_cast<int>(level)].push_back({a, b});
+        continue;
+      }
+      middles.push_back({a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2});
+      const TriangleId beyond = Triangulation::triangle(mesh.twin(e));
+      if (sheet_of_[beyond.index()] != Origin::none) continue;
+      sheet_of_[beyond.index()] = id;
+      front.push_back(beyond);
+    }
+  }
+  Sheet sheet{NearestSegment(std::move(bounds[0])), NearestSegment(std::move(bounds[1])), 0};
+  if (sheet.is_end())
+    for (const Point p : middles) sheet.radius = std::max(sheet.radius, sheet.depth(p));
+  sheets_.push_back(std::move(sheet));
+}
+
+}  // namespace loft

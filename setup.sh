@@ -1,0 +1,43 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Installs the Debian packages that loft needs, if any is missing; does nothing otherwise.
+#   sh setup.sh          what the libraries, the program and the samples need
+#   sh setup.sh tests    that, and what the tests need
+set -eu
+
+packages="g++ cmake ninja-build pkg-config libopenmesh-dev libeigen3-dev libtinygltf-dev
+  libcli11-dev nlohmann-json3-dev"
+if [ "${1:-}" = tests ]; then
+  packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16"
+  # Node.js often comes from elsewhere than Debian, npm with it.
+  command -v npm > /dev/null || packages="$packages nodejs npm ca-certificates"
+fi
+
+if ! command -v dpkg-query > /dev/null; then
+  echo "setup.sh: not a Debian system; what is needed, by its Debian names:" $packages >&2
+  exit 0
+fi
+
+missing=
+for package in $packages; do
+  status=$(dpkg-query -W -f '${db:Status-Status}' "$package" 2> /dev/null || true)
+  [ "$status" = installed ] || missing="$missing $package"
+done
+[ -n "$missing" ] || exit 0
+
+if [ "$(id -u)" = 0 ]; then
+  as_root=
+elif command -v sudo > /dev/null; then
+  as_root=sudo
+else
+  echo "setup.sh: packages are missing; as root: apt-get install$missing" >&2
+  exit 1
+fi
+
+echo "Installing$missing"
+export DEBIAN_FRONTEND=noninteractive
+if ! { $as_root apt-get update -q &&
+       $as_root apt-get install -q -y --no-install-recommends $missing; }; then
+  echo "setup.sh: apt-get failed; these packages are needed:$missing" >&2
+  exit 1
+fi

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: MIT
+// The program's commands when all is well.
+#include "tests/app/program.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace loft::app {
+namespace {
+
+using namespace testing;
+
+const std::string labelled = R"({"z": 0, "contours": [)" + ring(2) + ", " + ring(3, 12, 10, 0) +
+                             R"(], "labels": ["heart", "lung"]})"
+                             "\n"
+                             R"({"z": 1, "contours": [)" +
+                             ring(3, 12, 10, 0) + ", " + ring(2) +
+                             R"(], "labels": ["lung", "heart"]})";
+
+TEST(Loft, HelpNamesCommandsAndExitCodes) {
+  const Folder folder;
+  const Outcome outcome = run(folder, "--help");
+  EXPECT_EQ(outcome.exit_code, 0);
+  for (const char* words : {"reconstruct", "check", "info",
+                            "Exit codes: 0 ok, 1 check failed, "
+                            "2 usage, 3 bad input, 4 cannot write",
+                            "Examples:"}) {
+    EXPECT_NE(outcome.out.find(words), std::string::npos) << words;
+  }
+  EXPECT_TRUE(run(folder, "--version").out.starts_with("loft "));
+}
+
+TEST(Loft, WritesEveryFormatAndWordsToStderr) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  const Outcome outcome = run(folder,
+                              "reconstruct -o a.glb -o a.gltf -o a.ply -o a.obj -o a.stl -o a.off "
+                              "--unit cm --cap dome --fill nonzero in.ndjson");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_NE(outcome.err.find("wrote a.off\n"), std::string::npos) << outcome.err;
+  EXPECT_EQ(outcome.err.find('\r'), std::string::npos) << "no progress bar into a file";
+  for (const char* name : {"a.glb", "a.gltf", "a.ply", "a.obj", "a.stl", "a.off"}) {
+    EXPECT_EQ(run(folder, std::string("check ") + name).exit_code, 0) << name;
+    EXPECT_EQ(run(folder, std::string("info ") + name).exit_code, 0) << name;
+  }
+  EXPECT_EQ(folder.size(), 9U);
+}
+
+TEST(Loft, QuietSaysNothing) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel(slice(2, ring(10) + ", [[1, 1]]"))));
+  const Outcome loud = run(folder, "reconstruct in.ndjson -o a.ply");
+  EXPECT_NE(loud.err.find("warning: in.ndjson: slice 2 (z = 2) contour 1"), std::string::npos)
+      << loud.err;
+  const Outcome quiet = run(folder, "reconstruct in.ndjson -o a.ply --quiet");
+  EXPECT_EQ(quiet.exit_code, 0);
+  EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST(Loft, WarnsTwentyTimesOfAKind) {
+  const Folder folder;
+  std::string stray;
+  for (int i = 0; i < 30; ++i) stray += ", [[1, 1]]";
+  static_cast<void>(folder.write("in.ndjson", barrel(slice(2, ring(10) + stray))));
+  const Outcome outcome = run(folder, "reconstruct in.ndjson -o a.ply --json");
+  std::size_t warnings = 0;
+  for (std::size_t at = 0; (at = outcome.err.find("warning: ", at)) != std::string::npos; ++at) {
+    ++warnings;
+  }
+  EXPECT_EQ(warnings, 21U) << outcome.err;
+  EXPECT_NE(outcome.err.find("and 10 more of kind too_few_points"), std::string::npos);
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["parts"][0]["repairs"].size(), 30U);
+  EXPECT_EQ(report["parts"][0]["repairs"][0]["contour"], 1);
+}
+
+TEST(Loft, ReportsAsJson) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", labelled));
+  const Outcome outcome = run(folder, "reconstruct in.ndjson -o a.glb --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["schema"], "loft-reconstruct");
+  EXPECT_EQ(report["schema_version"], 1);
+  EXPECT_EQ(report["slices"], 2);
+  EXPECT_EQ(report["contours"], 4);
+  EXPECT_EQ(report["vertices_in"], 40);
+  EXPECT_EQ(report["vertices"], 40);
+  EXPECT_EQ(report["components"], 2);
+  EXPECT_EQ(report["options"]["fill"], "evenodd");
+  for (const char* stage : {"read", "clean", "tile", "sew", "write", "total"}) {
+    EXPECT_GE(report["seconds"][stage].get<double>(), 0) << stage;
+  }
+  ASSERT_EQ(report["parts"].size(), 2U);
+  EXPECT_EQ(report["parts"][0]["label"], "heart");
+  EXPECT_EQ(report["parts"][0]["vertices_of_kind"]["contour"], 16);
+  EXPECT_EQ(report["parts"][1]["label"], "lung");
+}
+
+TEST(Loft, ReadsSeveralFilesAndStandardInput) {
+  const Folder folder;
+  static_cast<void>(folder.write("stdin", slice(0, ring(8)) + slice(1, ring(9))));
+  static_cast<void>(folder.write("b.jsonl", slice(2, ring(7))));
+  EXPECT_EQ(run(folder, "reconstruct - b.jsonl -o two.ply").exit_code, 0);
+  static_cast<void>(
+      folder.write("stdin", slice(0, ring(8)) + slice(1, ring(9)) + slice(2, ring(7))));
+  EXPECT_EQ(run(folder, "reconstruct - -o one.ply").exit_code, 0);
+  EXPECT_EQ(content(folder / "one.ply"), content(folder / "two.ply"));
+}
+
+TEST(Loft, ChecksAgainstTheStack) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  static_cast<void>(folder.write("other.ndjson", barrel(slice(2, ring(11)))));
+  ASSERT_EQ(run(folder, "reconstruct in.ndjson -o a.ply -o a.glb").exit_code, 0);
+  const Outcome good = run(folder, "check a.ply --stack in.ndjson");
+  EXPECT_EQ(good.exit_code, 0) << good.out;
+  EXPECT_NE(good.out.find("all 40 contour vertices and 40 contour edges"), std::string::npos);
+  const Outcome bad = run(folder, "check a.ply --stack other.ndjson");
+  EXPECT_EQ(bad.exit_code, 1);
+  EXPECT_NE(bad.out.find("8 of 40 contour vertices, 8 of 40 contour edges; first: slice 2 (z = 2) "
+                         "contour 0 point 0"),
+            std::string::npos)
+      << bad.out;
+  const auto report =
+      nlohmann::json::parse(run(folder, "check a.ply --stack other.ndjson --json").out);
+  EXPECT_EQ(report["schema"], "loft-check");
+  EXPECT_EQ(report["valid"], true);
+  EXPECT_EQ(report["stack"]["missing_vertices"], 8);
+}
+
+TEST(Loft, ChecksFailWhereTheSurfaceIsOpen) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  ASSERT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --cap open").exit_code, 0);
+  const Outcome outcome = run(folder, "check a.ply");
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_NE(outcome.out.find("not a valid solid"), std::string::npos);
+  EXPECT_NE(outcome.out.find("boundary_edge: 16"), std::string::npos) << outcome.out;
+}
+
+TEST(Loft, ShowsWhatIsInAStack) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", labelled + "\n" + slice(4, "")));
+  const Outcome outcome = run(folder, "info in.ndjson");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("3 slices, 4 contours, 40 vertices, 1 slices empty"),
+            std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("gaps between slices 1 to 3"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("label 'lung': 2 slices, 2 contours, 24 vertices"), std::string::npos);
+  const auto report = nlohmann::json::parse(run(folder, "info in.ndjson --json").out);
+  EXPECT_EQ(report["kind"], "stack");
+  EXPECT_EQ(report["labels"][0]["label"], "heart");
+}
+
+}  // namespace
+}  // namespace loft::app

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+#include "io/surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <OpenMesh/Core/IO/MeshIO.hh>
+#include <string>
+#include <vector>
+
+#include "io/atomic_file.h"
+#include "io/file.h"
+#include "tests/io/shapes.h"
+
+namespace loft::io {
+namespace {
+
+using testing::Folder;
+using testing::message_of;
+using testing::prism;
+
+TEST(Surfaces, TheSameSurfacesGiveTheSameBytes) {
+  const Folder folder;
+  const Surface surface = prism(9, {1, 2, 3});
+  const std::vector<Part> parts{{"one", &surface}, {"two", &surface}};
+  for (const std::string extension : {".glb", ".gltf", ".ply", ".obj", ".stl", ".off"}) {
+    write(folder / ("a" + extension), parts);
+    write(folder / ("b" + extension), parts);
+    EXPECT_EQ(testing::content(folder / ("a" + extension)),
+              testing::content(folder / ("b" + extension)));
+  }
+}
+
+TEST(Surfaces, AnUnknownExtensionNamesTheKnownOnes) {
+  const Folder folder;
+  const auto path = folder / "a.vtk";
+  const std::string message =
+      path.string() + ": unknown extension '.vtk'; known are .glb .gltf .ply .obj .stl .off";
+  EXPECT_EQ(message_of<UnknownFormat>([&] { write(path, {}); }), message);
+  EXPECT_EQ(message_of<UnknownFormat>([&] { check_writable(path); }), message);
+}
+
+TEST(Surfaces, AMissingFolderIsNamed) {
+  const Folder folder;
+  const auto path = folder / "none" / "a.ply";
+  const std::string message = "cannot write " + path.string() + ": folder " +
+                              (folder / "none").string() + " does not exist; create it first";
+  EXPECT_EQ(message_of<FileError>([&] { write(path, {}); }), message);
+  EXPECT_EQ(message_of<FileError>([&] { check_writable(path); }), message);
+}
+
+TEST(Surfaces, CheckingLeavesNothingBehind) {
+  const Folder folder;
+  check_writable(folder / "a.ply");
+  EXPECT_EQ(folder.size(), 0U);
+}
+
+TEST(Surfaces, AFileThatCannotBeWrittenKeepsTheOldOne) {
+  const Folder folder;
+  const auto path = folder.write("a.glb", "old");
+  EXPECT_NE(message_of<Error>([&] { write(path, {}); }), "nothing");  // no part: glTF needs one
+  EXPECT_EQ(testing::content(path), "old");
+  EXPECT_EQ(folder.size(), 1U);
+}
+
+TEST(AtomicFile, AppearsOnlyWhenItIsComplete) {
+  const Folder folder;
+  const auto path = folder / "a.txt";
+  {
+    AtomicFile file(path);
+    file.stream() << "half";
+  }
+  EXPECT_EQ(folder.size(), 0U);
+  AtomicFile first(path);
+  AtomicFile second(path);
+  first.stream() << "first";
+  second.stream() << "second";
+  EXPECT_FALSE(std::filesystem::exists(path));
+  first.commit();
+  EXPECT_EQ(testing::content(path), "first");
+  second.commit();
+  EXPECT_EQ(testing::content(path), "second");
+  EXPECT_EQ(folder.size(), 1U);
+}
+
+TEST(Ply, CarriesProvenanceAndLabels) {
+  const Folder folder;
+  const Surface surface = prism(3);
+  const std::vector<Part> parts{{"two\nlines", &surface}};
+  write(folder / "a.ply", parts);
+  const std::string text = testing::content(folder / "a.ply");
+  for (const char* line :
+       {"comment label 0 two_lines\n", "element vertex 6\n", "property double x\n",
+        "property uchar kind\nproperty int slice\nproperty int contour\nproperty int point\n",
+        "property list uchar int vertex_indices\nproperty uchar kind\nproperty int slab\n"}) {
+    EXPECT_NE(text.find(line), std::string::npos) << line;
+  }
+}
+
+TEST(Ply, IsReadByOpenMesh) {
+  const Folder folder;
+  const Surface surface = prism(12, {0.1, 0.2, 0.3});
+  const std::vector<Part> parts{{"a", &surface}, {"b", &surface}};
+  write(folder / "a.ply", parts);
+  Surface read;
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(read, (folder / "a.ply").string()));
+  EXPECT_EQ(read.n_faces(), 2 * surface.n_faces());
+  const Surface::VertexHandle vertex(5);  // OpenMesh reads coordinates as float
+  EXPECT_LT((read.point(vertex) - surface.point(vertex)).norm(), 1e-6);
+}
+
+}  // namespace
+}  // namespace loft::io

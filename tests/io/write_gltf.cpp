@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Writes one glTF file of each kind that can come up, into the current folder, for
+// validate_gltf.mjs.
+#include <vector>
+
+#include "io/surfaces.h"
+#include "tests/io/shapes.h"
+
+int main() {
+  using namespace loft;
+  using io::testing::prism;
+  const Surface closed = prism(12);
+  const Surface open = prism(12, {2, 0, 0}, 1, false);
+  const Surface fine = prism(40'000, {}, 1, false);              // more vertices than 16 bits count
+  const Surface far = prism(9, {500'000, 5'000'000, 1e3}, 0.5);  // as in UTM
+  const Surface tiny = prism(9, {}, 1e-9);
+  Surface leaf;  // two faces whose normals cancel at every vertex
+  const auto a = leaf.add_vertex({0, 0, 0});
+  const auto b = leaf.add_vertex({1, 0, 0});
+  const auto c = leaf.add_vertex({0, 1, 0});
+  leaf.add_face(a, b, c);
+  leaf.add_face(c, b, a);
+
+  io::WriteOptions options;
+  options.sources = {"stack.ndjson"};
+  options.settings = {{"fill", "evenodd"}, {"cap", "flat"}};
+  const auto write = [&](const char* name, const std::vector<io::Part>& parts) {
+    io::write(name, parts, options);
+  };
+  write("closed.glb", {{"", &closed}});
+  write("closed.gltf", {{"", &closed}});
+  write("open.glb", {{"", &open}});
+  write("labels.glb", {{"heart", &closed}, {"lung \"left\" \xc3\xa9", &open}, {"", &tiny}});
+  write("fine.glb", {{"", &fine}});
+  write("far.glb", {{"", &far}});
+  write("leaf.glb", {{"", &leaf}});
+  options.metres_per_unit = 1e-9;
+  write("tiny.glb", {{"", &tiny}});
+}

@@ -1,0 +1,60 @@
+# SPDX-License-Identifier: MIT
+# Tests of the project itself: layers, style, README, samples, installation.
+set(root ${PROJECT_SOURCE_DIR})
+set(build ${PROJECT_BINARY_DIR})
+
+add_test(NAME style.layers COMMAND sh ${root}/tests/layers.sh)
+add_test(NAME style.format COMMAND sh ${root}/tests/style.sh format)
+add_test(NAME style.tidy COMMAND sh ${root}/tests/style.sh tidy ${build})
+set_tests_properties(style.layers style.format style.tidy PROPERTIES LABELS style)
+# clang-tidy keeps all cores busy by itself.
+cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
+set_tests_properties(style.tidy PROPERTIES PROCESSORS ${cores} TIMEOUT 1200)
+
+# Every public header compiles by itself (set by the presets).
+if(CMAKE_VERIFY_INTERFACE_HEADER_SETS)
+  add_test(NAME style.headers
+    COMMAND ${CMAKE_COMMAND} --build ${build} --target all_verify_interface_header_sets)
+  set_tests_properties(style.headers PROPERTIES LABELS style)
+endif()
+
+# The example in README.md compiles and runs.
+set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/README.md)
+file(READ ${root}/README.md readme)
+if(NOT readme MATCHES "```cpp\n([^`]+)```")
+  message(FATAL_ERROR "README.md has no ```cpp example")
+endif()
+file(CONFIGURE OUTPUT readme_example.cpp CONTENT "${CMAKE_MATCH_1}" @ONLY)
+add_executable(readme_example ${CMAKE_CURRENT_BINARY_DIR}/readme_example.cpp)
+target_link_libraries(readme_example PRIVATE loft::io)
+add_test(NAME readme.example COMMAND readme_example WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+
+# A project that uses loft builds and runs: with loft installed, and with loft as a subdirectory
+# (its lowest layer only; the others would all be compiled again).
+set(prefix ${CMAKE_CURRENT_BINARY_DIR}/prefix)
+add_test(NAME install.install COMMAND ${CMAKE_COMMAND} --install ${build} --prefix ${prefix})
+set_tests_properties(install.install PROPERTIES FIXTURES_SETUP installed LABELS install)
+
+# test_consumer(NAME FOLDER TARGET OPTIONS...): builds TARGET of tests/install and runs it.
+function(test_consumer name target)
+  add_test(NAME install.${name} COMMAND ${CMAKE_CTEST_COMMAND} --build-and-test
+    ${root}/tests/install ${CMAKE_CURRENT_BINARY_DIR}/consumer-${name}
+    --build-generator ${CMAKE_GENERATOR} --build-target ${target}
+    --build-options -DCMAKE_CXX_COMPILER=${CMAKE_CXX_COMPILER}
+      -DCMAKE_CXX_FLAGS=${CMAKE_CXX_FLAGS} ${ARGN}
+    --test-command ${target})
+  set_tests_properties(install.${name} PROPERTIES LABELS install)
+endfunction()
+test_consumer(find_package solid -DCMAKE_PREFIX_PATH=${prefix})
+test_consumer(subdirectory plane -DLOFT_FOLDER=${root})
+set_tests_properties(install.find_package PROPERTIES FIXTURES_REQUIRED installed)
+
+# The generated stacks in samples/data are what make_stacks makes.
+if(TARGET make_stacks)
+  foreach(stack vessels shells)
+    add_test(NAME samples.${stack} COMMAND sh -c
+      "\"$1\" ${stack} | cmp - \"$2\"" sh $<TARGET_FILE:make_stacks> ${root}/samples/data/${stack}.ndjson)
+  endforeach()
+  add_test(NAME samples.surface_from_circles COMMAND surface_from_circles vase.glb
+    WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+endif()

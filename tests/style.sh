@@ -1,0 +1,30 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Checks the sources against .clang-format and .clang-tidy.
+#   sh tests/style.sh format         to repair: git ls-files '*.h' '*.cpp' | xargs clang-format -i
+#   sh tests/style.sh tidy BUILD     BUILD is a build folder with compile_commands.json
+set -eu
+cd "$(dirname "$0")/.."
+
+# ours PATTERN FOLDERS...: the files to check; installed packages are not ours.
+ours() {
+  pattern=$1
+  shift
+  find "$@" -name node_modules -prune -o -name "$pattern" -print | LC_ALL=C sort
+}
+
+case ${1:-} in
+  format)
+    { ours '*.h' cdt reconstruct io app tests samples
+      ours '*.cpp' cdt reconstruct io app tests samples; } |
+      xargs clang-format --dry-run -Werror
+    ;;
+  tidy)
+    ours '*.cpp' cdt reconstruct io app samples |
+      xargs -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "$2"
+    ;;
+  *)
+    echo "usage: sh tests/style.sh format | tidy BUILD" >&2
+    exit 2
+    ;;
+esac
