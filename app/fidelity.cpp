@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "app/report.h"
+#include "cdt/predicates.h"
 
 namespace loft::app {
 
@@ -77,6 +78,13 @@ bool has_contour_edge(const PlacesAndEdges& mesh, const Vec3& a, const Vec3& b) 
   return mesh.has_edge(a, middle) && mesh.has_edge(middle, b);
 }
 
+/// Whether a contour encloses nothing because its points are all in one line (exact).
+bool is_flat(std::span<const cdt::Point> points) {
+  const auto other = std::ranges::find_if(points, [&](cdt::Point p) { return p != points[0]; });
+  return std::all_of(other, points.end(),
+                     [&](cdt::Point p) { return cdt::orient(points[0], *other, p) == 0; });
+}
+
 std::string place(std::size_t slice, double z, std::size_t contour, std::size_t point) {
   return "slice " + std::to_string(slice) + " (z = " + rounded(z) + ") contour " +
          std::to_string(contour) + " point " + std::to_string(point);
@@ -97,7 +105,7 @@ Fidelity compare(std::span<const Slice> stack, std::span<const io::LabelledMesh>
     const double z = stack[s].z;
     for (std::size_t c = 0; c < stack[s].contours.size(); ++c) {
       const std::vector<cdt::Point>& points = stack[s].contours[c].points;
-      if (points.size() < 3) continue;
+      if (is_flat(points)) continue;
       for (std::size_t p = 0; p < points.size(); ++p) {
         const cdt::Point& next = points[(p + 1) % points.size()];
         const Vec3 here{points[p].x, points[p].y, z};

@@ -25,8 +25,8 @@ struct Fidelity {
 
 /// Looks up every contour vertex (the same coordinates, bit for bit) and every contour edge (an
 /// edge of the mesh between those vertices, or two with its midpoint) in all the meshes together.
-/// Contours of fewer than three points and edges without length do not count: no surface can keep
-/// them. Cost: O(n log n).
+/// Contours whose points are all in one line and edges without length do not count: no surface can
+/// keep them. Cost: O(n log n).
 [[nodiscard]] Fidelity compare(std::span<const Slice> stack,
                                std::span<const io::LabelledMesh> meshes);
 

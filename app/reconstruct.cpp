@@ -99,14 +99,14 @@ struct Result {
 };
 
 Result reconstruct_label(const std::vector<Slice>& stack, const Options& options,
-                         Follower follower) {
+                         Follower& follower, bool is_measured) {
   Reconstruction made = reconstruct(stack, options, std::ref(follower));
   Result result;
   result.report.label = options.label.value_or("");
   result.report.input = size_of(stack, options.label);
   result.report.seconds = follower.finish();
   result.report.vertices_of_kind = count_kinds(made.surface);
-  result.report.measures = measure(to_mesh(made.surface));
+  if (is_measured) result.report.measures = measure(to_mesh(made.surface));
   result.report.repairs = std::move(made.repairs);
   result.surface = std::move(made.surface);
   return result;
@@ -135,6 +135,7 @@ std::vector<Result> reconstruct_all(const ReconstructCommand& command,
   std::vector<std::string> names = labels(stack);
   if (names.empty()) names.emplace_back();
   const bool is_labelled = names.size() > 1 || !names[0].empty();
+  const bool is_measured = command.json || !command.quiet;  // else nobody sees it
   const double share = 1.0 / static_cast<double>(names.size());
   std::vector<Result> results;
   std::string problems;
@@ -143,7 +144,7 @@ std::vector<Result> reconstruct_all(const ReconstructCommand& command,
     if (is_labelled) options.label = names[i];
     Follower follower(terminal, names[i], share * static_cast<double>(i), share);
     try {
-      results.push_back(reconstruct_label(stack, options, std::move(follower)));
+      results.push_back(reconstruct_label(stack, options, follower, is_measured));
     } catch (const InputError& error) {
       if (!problems.empty()) problems += '\n';
       problems += with_place(error.what(), place_of(command, options));

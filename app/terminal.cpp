@@ -37,8 +37,8 @@ Terminal::Terminal(bool quiet)
 
 void Terminal::print(std::string_view colour, std::string_view prefix, std::string_view line) {
   clear_progress();
-  if (has_colour_) std::cerr << colour << prefix << plain << line << '\n';
-  if (!has_colour_) std::cerr << prefix << line << '\n';
+  const bool is_coloured = has_colour_ && !colour.empty();
+  std::cerr << (is_coloured ? colour : "") << prefix << (is_coloured ? plain : "") << line << '\n';
 }
 
 void Terminal::say(std::string_view line) {

@@ -20,12 +20,12 @@ constexpr int most_detours = 32;
 void Triangulation::constrain(SegmentId s) {
   const Segment segment = this->segment(s);
   VertexId at = segment.from;
-  std::vector<VertexId> goals{segment.to};
+  goals_.assign(1, segment.to);
   const std::size_t snaps_before = snaps_;
-  while (!goals.empty()) {
-    const VertexId goal = goals.back();
+  while (!goals_.empty()) {
+    const VertexId goal = goals_.back();
     if (goal == at) {
-      goals.pop_back();
+      goals_.pop_back();
       continue;
     }
     if (snaps_ - snaps_before > most_detours) {
@@ -39,7 +39,7 @@ void Triangulation::constrain(SegmentId s) {
         at = to(obstacle.edge);
         break;
       case Obstacle::Kind::constrained_edge:
-        goals.push_back(cross(obstacle.edge, s));
+        goals_.push_back(cross(obstacle.edge, s));
         break;
       case Obstacle::Kind::vertex:
         mark(force_edge(at, obstacle.vertex), s);

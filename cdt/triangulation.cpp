@@ -2,6 +2,7 @@
 #include "cdt/triangulation.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <stdexcept>
 
@@ -37,18 +38,27 @@ ConstraintId Triangulation::insert(std::span<const Point> points, Ends ends) {
 
   const ConstraintId id(static_cast<std::uint32_t>(constraints_.size()));
   const auto first_segment = static_cast<std::uint32_t>(segments_.size());
-  const VertexId first = insert(points.front());
-  VertexId previous = first;
-  for (const Point p : points.subspan(1)) {
-    const VertexId v = insert_near(p, edge(previous));
-    segments_.push_back({previous, v, id});
-    previous = v;
-  }
-  if (ends == closed && points.size() > 1) segments_.push_back({previous, first, id});
+  insert_points(points);
+  for (std::size_t i = 1; i < points.size(); ++i)
+    segments_.push_back({inserted_[i - 1], inserted_[i], id});
+  if (ends == closed && points.size() > 1)
+    segments_.push_back({inserted_.back(), inserted_.front(), id});
+  const VertexId first = inserted_.front();
   const auto end = static_cast<std::uint32_t>(segments_.size());
   constraints_.push_back({first, first_segment, end - first_segment});
   for (std::uint32_t s = first_segment; s < end; ++s) constrain(SegmentId(s));
   return id;
+}
+
+/// Coarse to fine: every 2^k-th point, then those half way between, each located from its
+/// neighbour. Along a curve, in the order of the curve, most flips would be undone by later ones.
+void Triangulation::insert_points(std::span<const Point> points) {
+  const std::size_t n = points.size();
+  inserted_.resize(n);
+  inserted_[0] = insert(points[0]);
+  for (std::size_t stride = std::bit_floor(n); stride > 0; stride /= 2)
+    for (std::size_t i = stride; i < n; i += 2 * stride)
+      inserted_[i] = insert_near(points[i], edge(inserted_[i - stride]));
 }
 
 VertexId Triangulation::insert(Point point) { return insert_near(point, last_); }

@@ -182,6 +182,7 @@ class Triangulation {
   void link(EdgeId a, EdgeId b) { link(a, b, {}); }
 
   // triangulation.cpp: vertices
+  void insert_points(std::span<const Point> points);
   VertexId insert_near(Point point, EdgeId hint);
   void start(VertexId a, VertexId b);
   void extend(EdgeId end_to_infinity, VertexId v);
@@ -230,8 +231,10 @@ class Triangulation {
   std::size_t snaps_ = 0;
 
   // Scratch memory of single operations, kept to spare allocations.
+  std::vector<VertexId> inserted_;
   std::vector<EdgeId> suspects_;
   std::vector<EdgeId> crossed_;
+  std::vector<VertexId> goals_;
   std::vector<TriangleId> spare_;
   Cavity left_;
   Cavity right_;

@@ -11,7 +11,7 @@
 #include "io/gltf.h"
 #include "io/little_endian.h"
 #include "io/shading.h"
-#include "io/text.h"
+#include "io/utf8.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 
@@ -140,7 +140,18 @@ bool is_open(const Surface& surface) {
                              [&](const auto halfedge) { return surface.is_boundary(halfedge); });
 }
 
-std::string name_of(const Part& part) { return part.label.empty() ? "surface" : part.label; }
+/// Text that JSON can hold: where it is no UTF-8 (a file's name can be anything), its odd bytes are
+/// replaced.
+std::string json_text(std::string text) {
+  if (is_utf8(text)) return text;
+  std::ranges::replace_if(
+      text, [](char c) { return (c & 0x80) != 0; }, '?');
+  return text;
+}
+
+std::string name_of(const Part& part) {
+  return part.label.empty() ? "surface" : json_text(part.label);
+}
 
 tinygltf::Material material(const Part& part, std::size_t number) {
   tinygltf::Material result;
@@ -189,9 +200,10 @@ void add_part(const Part& part, const Frame& frame, Buffer& buffer, tinygltf::Mo
 
 tinygltf::Value extras(const WriteOptions& options) {
   tinygltf::Value::Array sources;
-  for (const std::string& source : options.sources) sources.emplace_back(source);
+  for (const std::string& source : options.sources) sources.emplace_back(json_text(source));
   tinygltf::Value::Object settings;
-  for (const auto& [key, value] : options.settings) settings[key] = tinygltf::Value(value);
+  for (const auto& [key, value] : options.settings)
+    settings[json_text(key)] = tinygltf::Value(json_text(value));
   tinygltf::Value::Object result;
   result["metres_per_unit"] = tinygltf::Value(options.metres_per_unit);
   result["up"] = tinygltf::Value(std::string("z"));

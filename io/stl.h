@@ -18,7 +18,9 @@ namespace loft::io {
 void write_stl(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
 
 /// Reads binary and ASCII STL. Triangles that meet along an edge share its vertices again (see
-/// sew_seams()). Always one mesh. Throws InputError that names `name` and the place.
+/// sew_seams()); where more than two meet, as where parts of a solid touch, the format has lost
+/// which of them belong together, and the edge is not manifold. Always one mesh. Throws InputError
+/// that names `name` and the place.
 [[nodiscard]] std::vector<LabelledMesh> read_stl(const std::string& content, std::string_view name);
 
 }  // namespace loft::io

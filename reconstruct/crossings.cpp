@@ -77,6 +77,7 @@ class Collapse {
     find_crossings();
     if (crossings_.empty()) return;
     list_faces();
+    std::erase_if(crossings_, [this](std::uint32_t p) { return slot_[p] == none; });
     grid_.emplace(tiles_.size(), [this](std::uint32_t f) { return footprint(tiles_[f].nodes); });
     bool is_changed = true;
     while (is_changed) {  // a collapse may make room for another
@@ -170,7 +171,13 @@ class Collapse {
       link_.push_back(ahead(*found).second);
     }
     link_.pop_back();
-    return link_.size() == faces.size() && link_.size() >= 3;
+    return link_.size() == faces.size() && link_.size() >= 3 && are_different(link_);
+  }
+
+  /// A node twice in the link: the edge to it has more than two faces.
+  [[nodiscard]] static bool are_different(std::vector<std::uint32_t> nodes) {
+    std::ranges::sort(nodes);
+    return std::ranges::adjacent_find(nodes) == nodes.end();
   }
 
   bool collapse(std::uint32_t p) {
@@ -206,7 +213,6 @@ class Collapse {
     const auto is_new = [&](std::uint32_t x) { return x != v && x != before && x != after; };
     for (const std::uint32_t x : link_)
       if (is_new(x) && in_one_slice(x, v)) return false;
-    if (std::ranges::count(link_, v) != 1) return false;
     for (const std::uint32_t face : faces_at(v)) {
       const Nodes& nodes = tiles_[face].nodes;
       if (std::ranges::find(nodes, p) != nodes.end()) continue;
@@ -276,16 +282,19 @@ class Collapse {
       }
     }
     faces_at(p).clear();
-    inner_[p - contour_count_].place[2] = std::numeric_limits<double>::quiet_NaN();
   }
 
   /// Drops dead tiles and the inner vertices that no tile uses.
   void compact() {
     std::erase_if(tiles_, [](const Tile& tile) { return tile.nodes[0] == none; });
+    std::vector<bool> is_used(inner_.size());
+    for (const Tile& tile : tiles_)
+      for (const std::uint32_t node : tile.nodes)
+        if (!is_contour(node)) is_used[node - contour_count_] = true;
     std::vector<std::uint32_t> renumbered(inner_.size(), none);
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < inner_.size(); ++i) {
-      if (std::isnan(inner_[i].place[2])) continue;
+      if (!is_used[i]) continue;
       renumbered[i] = count;
       inner_[count++] = inner_[i];
     }

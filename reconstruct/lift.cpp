@@ -156,8 +156,7 @@ void Lift::lift_crossings() {
 void Lift::add_inner(VertexId v, double z, VertexKind kind) {
   if (inner_index_.size() <= v.index()) inner_index_.resize(v.index() + 1, Origin::none);
   inner_index_[v.index()] = static_cast<std::uint32_t>(inner_.size());
-  const Point p = mesh_.point(v);
-  inner_.push_back({{p.x, p.y, z}, kind});
+  inner_.push_back({slab_.place(v, z), kind});
 }
 
 /// Whether both ends of a sheet triangle's edge are in one slice, whose contour it is not.

@@ -27,7 +27,7 @@ std::vector<Point> normal_form(std::span<const Point> points) {
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
   std::vector<Point> best;
   for (int direction = 0; direction < 2; ++direction) {
-    std::ranges::rotate(ring, std::ranges::min_element(ring));
+    std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
     if (best.empty() || ring < best) best = ring;
     std::ranges::reverse(ring);
   }
@@ -38,6 +38,10 @@ bool are_in_line(std::span<const Point> points) {
   const auto [low, high] = std::ranges::minmax(points);
   return std::ranges::all_of(points, [&](Point p) { return cdt::orient(low, high, p) == 0; });
 }
+
+/// A vertex and an edge that are nearer than that, relative to the coordinates, touch: 16
+/// roundings.
+constexpr double tightness = 0x1p-49;
 
 /// The cleaning of one slice, stage by stage.
 class Cleaning {
@@ -53,6 +57,12 @@ class Cleaning {
     report_crossings();
     report_overlaps();
     return follow_loops();
+  }
+
+  /// Whether the region's vertices are those of the contours, and none is upon an edge.
+  [[nodiscard]] bool is_settled() const {
+    return is_settled_ && std::ranges::find(origins_.begin() + 1, origins_.end(),
+                                            VertexKind::cleaning, &Origin::kind) == origins_.end();
   }
 
  private:
@@ -83,8 +93,8 @@ class Cleaning {
     const std::size_t places = std::set<Point>(ring.begin(), ring.end()).size();
     Defect& defect =
         places < 3 ? report(DefectKind::too_few_points, contour,
-                            "has " + std::to_string(places) +
-                                " different points, an outline needs 3; dropped")
+                            "an outline needs 3 different points, this has " +
+                                std::to_string(places) + "; dropped")
                    : report(DefectKind::zero_area, contour, "all points are in one line; dropped");
     if (!ring.empty()) defect.place = ring.front();
   }
@@ -157,9 +167,9 @@ class Cleaning {
     }
     for (const auto& [pair, crossings] : found) {
       const auto& [place, count] = crossings;
-      const std::string times = count == 1 ? "" : " " + std::to_string(count) + " times";
+      const std::string times = count == 1 ? "" : ", " + std::to_string(count) + " times";
       const std::string rule = fill_ == Fill::even_odd
-                                   ? "; parts enclosed twice are outside (--fill even-odd); "
+                                   ? "; parts enclosed twice are outside (--fill evenodd); "
                                      "--fill nonzero keeps them"
                                    : "; parts that it winds around are inside (--fill nonzero)";
       Defect& defect =
@@ -206,7 +216,8 @@ class Cleaning {
       const EdgeId e(i);
       const auto passages = mesh_.passages(e);
       if (passages.size() < 2 || mesh_.twin(e) < e) continue;
-      const auto pair = std::minmax(contour_of(passages.front()), contour_of(passages.back()));
+      const std::pair<std::uint32_t, std::uint32_t> pair =
+          std::minmax({contour_of(passages.front()), contour_of(passages.back())});
       found.try_emplace(pair, mesh_.point(mesh_.from(e)));
     }
     for (const auto& [pair, place] : found) {
@@ -271,6 +282,10 @@ class Cleaning {
     do {
       is_done[e.index()] = true;
       const EdgeId after = next_boundary(e);
+      if (const VertexId v = vertex_upon(e); !v.is_none()) {
+        region.loop_vertices.push_back(add_point(v, region));
+        is_settled_ = false;
+      }
       if (!is_left_over(e, after))
         region.loop_vertices.push_back(add_point(mesh_.from(after), region));
       e = after;
@@ -280,6 +295,25 @@ class Cleaning {
         region.loop_vertices.begin() + static_cast<std::ptrdiff_t>(region.loop_starts.back());
     std::rotate(begin, region.loop_vertices.end() - 1, region.loop_vertices.end());
     region.loop_starts.push_back(static_cast<std::uint32_t>(region.loop_vertices.size()));
+  }
+
+  /// A vertex that is beside an edge by a few roundings only: the outline is led through it, or
+  /// the next rounding, where contours of two slices cross, might put it on the other side.
+  [[nodiscard]] VertexId vertex_upon(EdgeId e) const {
+    const Point a = mesh_.point(mesh_.from(e));
+    const Point b = mesh_.point(mesh_.to(e));
+    const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+    for (const EdgeId side : {e, mesh_.twin(e)}) {
+      const VertexId v = mesh_.apex(side);
+      if (v == Triangulation::infinite) continue;
+      const Point p = mesh_.point(v);
+      const double along = (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y);
+      const double length = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
+      const double area = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+      if (along > 0 && along < length && std::abs(area) < tightness * size * std::sqrt(length))
+        return v;
+    }
+    return VertexId::none();
   }
 
   std::uint32_t add_point(VertexId v, Region& region) {
@@ -294,6 +328,7 @@ class Cleaning {
     return index;
   }
 
+  bool is_settled_ = true;  // no outline was led through a vertex beside it
   std::span<const ContourSource> contours_;
   double z_;
   Fill fill_;
@@ -307,16 +342,49 @@ class Cleaning {
 
 }  // namespace
 
-Region clean(std::span<const ContourSource> contours, double z, Fill fill,
-             std::vector<Defect>& repairs) {
-  return Cleaning(contours, z, fill, repairs).run();
+namespace {
+
+/// Rounding may set a crossing down on the wrong side of an edge next to it, or on it. More rounds
+/// than a few were never seen.
+constexpr int most_rounds = 16;
+
+/// The loops of a region cleaned once more, as long as that changes anything.
+Region settle(Region region) {
+  for (int round = 0; round < most_rounds; ++round) {
+    std::vector<std::vector<Point>> loops(region.loop_count());
+    std::vector<ContourSource> sources;
+    for (std::uint32_t i = 0; i < loops.size(); ++i) {
+      for (const std::uint32_t v : region.loop(i)) loops[i].push_back(region.points[v]);
+      sources.push_back({loops[i], region.slice, i});
+    }
+    std::vector<Defect> nothing_new;
+    Region again = Cleaning(sources, region.z, Fill::even_odd, nothing_new).run();
+    for (Origin& origin : again.origins)
+      if (origin.kind == VertexKind::contour)
+        origin = region.origins[region.loop(origin.contour)[origin.point]];
+    const bool is_same =
+        again.points == region.points && again.loop_vertices == region.loop_vertices;
+    region = std::move(again);
+    if (is_same) break;
+  }
+  return region;
 }
 
-void insert_loops(const Region& region, cdt::Triangulation& mesh) {
+}  // namespace
+
+Region clean(std::span<const ContourSource> contours, double z, Fill fill,
+             std::vector<Defect>& repairs) {
+  Cleaning cleaning(contours, z, fill, repairs);
+  Region region = cleaning.run();
+  return cleaning.is_settled() ? region : settle(std::move(region));
+}
+
+void insert_loops(const Region& region, cdt::Triangulation& mesh, Point shift) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < region.loop_count(); ++i) {
     points.clear();
-    for (const std::uint32_t v : region.loop(i)) points.push_back(region.points[v]);
+    for (const std::uint32_t v : region.loop(i))
+      points.push_back({region.points[v].x + shift.x, region.points[v].y + shift.y});
     mesh.insert(points, cdt::closed);
   }
 }

@@ -47,7 +47,7 @@ struct ContourSource {
                            std::vector<Defect>& repairs);
 
 /// Inserts the loops of a region as constraints, in order: segment i starts at
-/// `loop_vertices[i]`, counted from the first segment that is new.
-void insert_loops(const Region& region, cdt::Triangulation& mesh);
+/// `loop_vertices[i]`, counted from the first segment that is new. All points moved by `shift`.
+void insert_loops(const Region& region, cdt::Triangulation& mesh, cdt::Point shift = {});
 
 }  // namespace loft

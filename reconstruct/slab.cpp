@@ -7,13 +7,20 @@
 
 namespace loft {
 
-Slab::Slab(const Region& lower, const Region& upper) : lower_(lower), upper_(upper) {
+Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift)
+    : lower_(lower), upper_(upper), shift_(shift) {
   overlay_.reserve(lower.points.size() + upper.points.size());
   insert_loops(lower, overlay_);
-  insert_loops(upper, overlay_);
+  insert_loops(upper, overlay_, shift);
   note_vertices(Level::lower);
   note_vertices(Level::upper);
   refresh();
+}
+
+Vec3 Slab::place(cdt::VertexId v, double z) const {
+  const double share = (z - lower_.z) / height();
+  const cdt::Point p = overlay_.point(v);
+  return {p.x - share * shift_.x, p.y - share * shift_.y, z};
 }
 
 void Slab::note_vertices(Level level) {

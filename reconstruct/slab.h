@@ -2,9 +2,11 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "cdt/triangulation.h"
+#include "reconstruct/mesh.h"
 #include "reconstruct/region.h"
 
 namespace loft {
@@ -23,8 +25,9 @@ enum class Level : std::uint8_t { lower, upper };
 /// of one CDT (design, section 3, step 1).
 class Slab {
  public:
-  /// Keeps references to the regions. Cost: that of the CDT.
-  Slab(const Region& lower, const Region& upper);
+  /// Keeps references to the regions. In the overlay the upper region is moved by `shift`: a shear
+  /// of the slab, which place() undoes. Cost: that of the CDT.
+  Slab(const Region& lower, const Region& upper, cdt::Point shift = {});
 
   [[nodiscard]] const Region& lower() const { return lower_; }
   [[nodiscard]] const Region& upper() const { return upper_; }
@@ -34,6 +37,8 @@ class Slab {
   [[nodiscard]] double height() const { return upper_.z - lower_.z; }
 
   [[nodiscard]] const cdt::Triangulation& overlay() const { return overlay_; }
+  /// Where an overlay vertex is in space, once it is lifted to height z.
+  [[nodiscard]] Vec3 place(cdt::VertexId v, double z) const;
 
   [[nodiscard]] Side side(cdt::TriangleId t) const { return sides_[t.index()]; }
   /// The side of the triangle left of an edge.
@@ -75,6 +80,7 @@ class Slab {
 
   const Region& lower_;
   const Region& upper_;
+  cdt::Point shift_;
   cdt::Triangulation overlay_;
   std::vector<Side> sides_;
   std::vector<std::uint32_t> lower_index_;

@@ -126,19 +126,21 @@ class Tiling {
       const Vec3 p = place(node);
       flat_.push_back({sign * p[axis], p[2]});
     }
-    if (polygon_.size() == 3) {
-      if (cdt::orient(flat_[0], flat_[1], flat_[2]) != 0)
-        add({polygon_[0], polygon_[1], polygon_[2]}, FaceKind::wall);
-      return;
-    }
-    fill_polygon();
+    const std::size_t count = tiles_.tiles.size();
+    if (polygon_.size() > 3) fill_polygon();
+    if (tiles_.tiles.size() == count + polygon_.size() - 2) return;
+    // A triangle; or rounding has bent the roof into the base: then what counts is to close it.
+    tiles_.tiles.resize(count);
+    for (std::size_t i = 1; i + 1 < polygon_.size(); ++i)
+      add({polygon_[0], polygon_[i], polygon_[i + 1]}, FaceKind::wall);
   }
 
   /// The polygon's constrained Delaunay triangulation: of all ways to cut it the one with the best
-  /// shapes.
+  /// shapes. Adds nothing if the polygon crosses itself.
   void fill_polygon() {
     wall_.clear();
     const auto ring = wall_.insert(flat_, cdt::closed);
+    if (wall_.vertex_count() != polygon_.size()) return;
     corner_.assign(wall_.vertex_count() + 1, Origin::none);
     const auto segments = wall_.segments(ring);
     for (std::size_t i = 0; i < segments.size(); ++i)
@@ -166,14 +168,39 @@ class Tiling {
   std::vector<std::uint32_t> corner_;
 };
 
+/// Where contours of both slices meet within rounding of each other, as three lines through one
+/// point may, the overlay can't be exact. Then the slab is sheared a little before it is tiled, and
+/// back again: a shear keeps tiles valid, and nothing meets by chance any more.
+constexpr int most_shears = 8;
+
+/// The shear's offset: small against the slices, large against rounding, in no special direction.
+Point shear(const Region& lower, const Region& upper, int attempt) {
+  if (attempt == 0) return {};
+  cdt::Box box;
+  double farthest = 0;
+  for (const Region* region : {&lower, &upper}) {
+    for (const Point p : region->points) {
+      box.add(p);
+      farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
+    }
+  }
+  const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  const double step = std::max(size * 0x1p-30, farthest * 0x1p-40);
+  const double turn = 2.399963 * attempt;  // the golden angle
+  return {attempt * step * std::cos(turn), attempt * step * std::sin(turn)};
+}
+
 }  // namespace
 
 TileSet tile(const Region& lower, const Region& upper) {
-  Slab slab(lower, upper);
-  const Lift lift(slab);
-  TileSet tiles = Tiling(slab, lift).run();
-  collapse_crossings(lower, upper, tiles);
-  return tiles;
+  for (int attempt = 0;; ++attempt) {
+    Slab slab(lower, upper, shear(lower, upper, attempt));
+    if (slab.overlay().snaps() != 0 && attempt < most_shears) continue;
+    const Lift lift(slab);
+    TileSet tiles = Tiling(slab, lift).run();
+    collapse_crossings(lower, upper, tiles);
+    return tiles;
+  }
 }
 
 }  // namespace loft

@@ -99,7 +99,7 @@ const std::vector<Case> cases{
     {"EmptySliceInTheMiddle", barrel(slice(2, "")), {"empty_slice"}, {}, 0, 2},
     {"EmptySlicesAtTheEnds", slice(-1, "") + barrel() + slice(5, "") + slice(6, ""), {}, barrel()},
     {"HolesOfTheSameOrientation", each(holes), {}, {}, 0, 1, 1},
-    {"TouchingContours", each(touching), {"touching"}, {}, 0, 2},
+    {"TouchingContours", each(touching), {}, {}, 0, 2},
     // By parity two overlapping discs leave two crescents, which touch in two points.
     {"OverlappingContours", each(overlapping), {"overlap"}, {}, 0, 2},
     {"OverlappingContoursNonzero", each(overlapping), {"overlap"}, {}, 0, 1, 0, "--fill nonzero"},

@@ -161,6 +161,15 @@ TEST(Gltf, NamesColoursAndNotes) {
   EXPECT_EQ(extras.Get("settings").Get("fill").Get<std::string>(), "evenodd");
 }
 
+TEST(Gltf, NamesThatAreNotUtf8AreReplaced) {
+  const Surface surface = prism(3);
+  WriteOptions options;
+  options.sources = {"\xff.ndjson"};
+  const tinygltf::Model model = load({{"a\xe9", &surface}}, options);
+  EXPECT_EQ(model.nodes[0].name, "a?");
+  EXPECT_EQ(model.asset.extras.Get("sources").Get(0).Get<std::string>(), "?.ndjson");
+}
+
 TEST(Gltf, WhatFloatCannotHoldIsRefused) {
   const Surface surface = prism(3, {}, 1e300);
   std::ostringstream out;

@@ -28,7 +28,7 @@ std::vector<std::array<Vec3, 3>> triangles(const Mesh& mesh) {
   std::vector<std::array<Vec3, 3>> result;
   for (const auto& [a, b, c] : mesh.faces) {
     std::array<Vec3, 3> triangle{mesh.points[a], mesh.points[b], mesh.points[c]};
-    std::ranges::rotate(triangle, std::ranges::min_element(triangle));
+    std::rotate(triangle.begin(), std::ranges::min_element(triangle), triangle.end());
     result.push_back(triangle);
   }
   std::ranges::sort(result);

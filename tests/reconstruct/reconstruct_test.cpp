@@ -1,0 +1,343 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/reconstruct.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "reconstruct/check.h"
+#include "reconstruct/measure.h"
+#include "tests/reconstruct/stacks.h"
+
+namespace loft {
+namespace {
+
+using std::numbers::pi;
+
+/// The names of all faults; empty for a valid solid.
+std::string faults(const Surface& surface) {
+  std::set<std::string> names;
+  for (const Finding& finding : check(surface)) names.insert(name(finding.fault));
+  std::string all;
+  for (const std::string& name : names) all += name + ' ';
+  return all;
+}
+
+Measures measures(const Surface& surface) { return measure(to_mesh(surface)); }
+
+std::size_t count(const Surface& surface, VertexKind kind) {
+  std::size_t n = 0;
+  for (const auto v : surface.vertices()) n += surface.data(v).origin.kind == kind ? 1U : 0U;
+  return n;
+}
+
+std::size_t count_faces(const Surface& surface, FaceKind kind) {
+  std::size_t n = 0;
+  for (const auto f : surface.faces()) n += surface.data(f).kind == kind ? 1U : 0U;
+  return n;
+}
+
+/// Every point of every contour is a vertex of the surface, which knows it.
+void expect_contours_kept(const std::vector<Slice>& slices, const Surface& surface) {
+  std::set<std::array<std::uint32_t, 3>> found;
+  for (const auto v : surface.vertices()) {
+    const Origin& origin = surface.data(v).origin;
+    if (origin.kind != VertexKind::contour) continue;
+    const Slice& slice = slices[origin.slice];
+    const cdt::Point p = slice.contours[origin.contour].points[origin.point];
+    EXPECT_EQ(surface.point(v), OpenMesh::Vec3d(p.x, p.y, slice.z));
+    found.insert({origin.slice, origin.contour, origin.point});
+  }
+  std::size_t points = 0;
+  for (const Slice& slice : slices)
+    for (const Contour& contour : slice.contours) points += contour.points.size();
+  EXPECT_EQ(found.size(), points);
+}
+
+TEST(Reconstruct, TwoUnlikeCirclesTakeATriangleForEachPoint) {
+  for (const auto& [n, m] :
+       std::vector<std::pair<std::size_t, std::size_t>>{{12, 12}, {20, 33}, {100, 7}, {64, 63}}) {
+    // Of one size they cross many times; small ones lie inside.
+    for (const double radius : {1.0, 1.02, 0.5}) {
+      SCOPED_TRACE(std::to_string(n) + " and " + std::to_string(m));
+      const std::vector<Slice> slices{{0, {stacks::circle(n, 1)}},
+                                      {0.5, {stacks::circle(m, radius, {0.01, 0.02}, 0.3)}}};
+      const Surface surface = reconstruct(slices).surface;
+      EXPECT_EQ(faults(surface), "");
+      EXPECT_EQ(surface.n_vertices(), n + m);
+      EXPECT_EQ(count_faces(surface, FaceKind::sheet) + count_faces(surface, FaceKind::wall),
+                n + m);
+      expect_contours_kept(slices, surface);
+    }
+  }
+}
+
+TEST(Reconstruct, AnExtrudedSquareIsABox) {
+  std::vector<Slice> slices;
+  for (const double z : {0.0, 1.0, 2.5, 7.0}) slices.push_back({z, {stacks::square(2)}});
+  const auto [surface, repairs] = reconstruct(slices);
+  EXPECT_TRUE(repairs.empty());
+  EXPECT_EQ(faults(surface), "");
+  EXPECT_EQ(surface.n_vertices(), 16U);
+  EXPECT_EQ(count_faces(surface, FaceKind::wall), 3U * 8U);
+  EXPECT_EQ(count_faces(surface, FaceKind::sheet), 0U);
+  EXPECT_DOUBLE_EQ(measures(surface).volume, 16 * 7);
+  expect_contours_kept(slices, surface);
+}
+
+TEST(Reconstruct, ASphereConverges) {
+  double before = 1;
+  for (const std::size_t count : {8U, 16U, 32U, 64U}) {
+    const auto slices = stacks::sphere(count, 8 * count);
+    const Surface surface = reconstruct(slices).surface;
+    EXPECT_EQ(faults(surface), "");
+    EXPECT_EQ(measures(surface).genus, 0);
+    expect_contours_kept(slices, surface);
+    const double z = slices.back().z;
+    const double expected = 2 * pi * (z - z * z * z / 3);
+    const double error = std::abs(measures(surface).volume / expected - 1);
+    EXPECT_LT(error, before / 3);
+    before = error;
+  }
+  EXPECT_LT(before, 1e-3);
+}
+
+TEST(Reconstruct, ATorusOnEdgeHasItsHole) {
+  double before = 1;
+  for (const std::size_t count : {16U, 32U, 64U}) {
+    const auto slices = stacks::Torus::slices(count, count);
+    const Surface surface = reconstruct(slices).surface;
+    EXPECT_EQ(faults(surface), "");
+    EXPECT_EQ(measures(surface).components, 1U);
+    EXPECT_EQ(measures(surface).genus, 1);
+    expect_contours_kept(slices, surface);
+    const double error = std::abs(measures(surface).volume / stacks::Torus::volume - 1);
+    EXPECT_LT(error, before / 2);
+    before = error;
+  }
+  EXPECT_LT(before, 0.005);
+}
+
+TEST(Reconstruct, AYBranchForksWithoutAHole) {
+  const auto slices = stacks::y_branch(31, 60);
+  const Surface surface = reconstruct(slices).surface;
+  EXPECT_EQ(faults(surface), "");
+  EXPECT_EQ(measures(surface).components, 1U);
+  EXPECT_EQ(measures(surface).genus, 0);
+  expect_contours_kept(slices, surface);
+  // A disc, two that overlap, two apart: the exact area at each height, summed finely.
+  double expected = 0;
+  constexpr int steps = 100000;
+  for (int i = 0; i < steps; ++i) {
+    const double apart = std::clamp(3 * (i + 0.5) / steps - 1, 0.0, 1.0);
+    const double common = 2 * std::acos(apart) - 2 * apart * std::sqrt(1 - apart * apart);
+    expected += (2 * pi - common) * 4 / steps;
+  }
+  EXPECT_NEAR(measures(surface).volume / expected, 1, 0.01);
+}
+
+TEST(Reconstruct, NestedShellsStayNested) {
+  // Three concentric spherical surfaces: a shell, and a ball in its cavity.
+  std::vector<Slice> slices;
+  for (int i = 0; i < 40; ++i) {
+    const double z = -1 + (i + 0.5) / 20;
+    Slice slice{z, {}};
+    for (const double radius : {1.0, 0.7, 0.4})
+      if (std::abs(z) < radius)
+        slice.contours.push_back(stacks::circle(80, std::sqrt(radius * radius - z * z)));
+    slices.push_back(slice);
+  }
+  const Surface surface = reconstruct(slices).surface;
+  EXPECT_EQ(faults(surface), "");
+  const Measures measured = measures(surface);
+  EXPECT_EQ(measured.components, 3U);
+  EXPECT_EQ(measured.genus, 0);
+  EXPECT_NEAR(measured.volume, 4 * pi / 3 * (1 - 0.343 + 0.064), 0.02);
+  expect_contours_kept(slices, surface);
+}
+
+TEST(Reconstruct, PartsThatTouchAreSeparated) {
+  std::vector<Slice> slices;
+  for (const double z : {0.0, 1.0, 2.0})
+    slices.push_back({z, {stacks::square(2), stacks::square(2, {4, 4})}});
+  const Surface surface = reconstruct(slices).surface;
+  EXPECT_EQ(faults(surface), "");
+  EXPECT_EQ(measures(surface).components, 2U);
+  EXPECT_DOUBLE_EQ(measures(surface).volume, 64);
+}
+
+TEST(Reconstruct, AnEmptySliceInterruptsTheShape) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 5; ++i) slices.push_back({double(i), {stacks::circle(24, 3)}});
+  slices[2].contours.clear();
+  const auto [surface, repairs] = reconstruct(slices);
+  EXPECT_EQ(faults(surface), "");
+  EXPECT_EQ(measures(surface).components, 2U);
+  ASSERT_EQ(repairs.size(), 1U);
+  EXPECT_EQ(repairs[0].kind, DefectKind::empty_slice);
+  EXPECT_EQ(repairs[0].slice, 2U);
+  for (const auto v : surface.vertices()) EXPECT_NE(surface.point(v)[2], 2);
+}
+
+TEST(Reconstruct, CapsAreFlatRoundOrMissing) {
+  const auto slices = stacks::sphere(10, 40);
+  const Surface flat = reconstruct(slices).surface;
+  EXPECT_EQ(count_faces(flat, FaceKind::bottom_cap), 38U);
+  EXPECT_EQ(count_faces(flat, FaceKind::top_cap), 38U);
+
+  const Surface dome = reconstruct(slices, {.cap = Cap::dome}).surface;
+  EXPECT_EQ(faults(dome), "");
+  EXPECT_GT(measures(dome).volume, measures(flat).volume);
+  EXPECT_LT(measures(dome).volume, 4 * pi / 3);
+
+  const Surface open = reconstruct(slices, {.cap = Cap::open}).surface;
+  EXPECT_EQ(faults(open), "boundary_edge ");
+  EXPECT_EQ(open.n_faces(), flat.n_faces() - 76);
+  for (const auto h : open.halfedges())
+    if (open.is_boundary(h)) EXPECT_TRUE(open.is_boundary(open.next_halfedge_handle(h)));
+}
+
+TEST(Reconstruct, SortsSlicesAndMergesThoseOfOneHeight) {
+  std::vector<Slice> slices{{2, {stacks::square(1)}},
+                            {0, {stacks::square(2), stacks::square(1)}},
+                            {1, {stacks::square(2)}},
+                            {1, {stacks::square(1)}}};
+  const auto [surface, repairs] = reconstruct(slices);
+  ASSERT_EQ(repairs.size(), 1U);
+  EXPECT_EQ(repairs[0].kind, DefectKind::merged_slices);
+  EXPECT_EQ(repairs[0].slice, 3U);
+  std::ranges::reverse(slices);
+  const Surface other = reconstruct(slices).surface;
+  EXPECT_EQ(faults(surface), "");
+  EXPECT_EQ(measures(surface).volume, measures(other).volume);
+  EXPECT_EQ(surface.n_faces(), other.n_faces());
+}
+
+TEST(Reconstruct, LargeCoordinatesLoseNothing) {
+  auto slices = stacks::sphere(20, 60);
+  const double volume = measures(reconstruct(slices).surface).volume;
+  for (Slice& slice : slices) {
+    slice.z += 1000;
+    for (cdt::Point& p : slice.contours[0].points) p = {p.x + 5e6, p.y + 4e5};
+  }
+  const Surface surface = reconstruct(slices).surface;
+  EXPECT_EQ(faults(surface), "");
+  expect_contours_kept(slices, surface);
+  EXPECT_NEAR(measures(surface).volume, volume, 1e-6);
+}
+
+TEST(Reconstruct, SmallUnitsAreAsGoodAsLargeOnes) {
+  auto slices = stacks::y_branch(12, 40);
+  for (Slice& slice : slices) {
+    slice.z *= 1e-6;
+    for (Contour& contour : slice.contours)
+      for (cdt::Point& p : contour.points) p = {p.x * 1e-6, p.y * 1e-6};
+  }
+  EXPECT_EQ(faults(reconstruct(slices).surface), "");
+}
+
+TEST(Reconstruct, NamesEveryCoordinateThatIsNotFinite) {
+  auto slices = stacks::sphere(4, 6);
+  slices[1].contours[0].points[3].y = std::numeric_limits<double>::quiet_NaN();
+  slices[3].z = std::numeric_limits<double>::infinity();
+  try {
+    (void)reconstruct(slices);
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.defects().size(), 2U);
+    EXPECT_EQ(error.defects()[0].slice, 1U);
+    EXPECT_EQ(error.defects()[0].contour, 0U);
+    EXPECT_EQ(error.defects()[0].point, 3U);
+    EXPECT_EQ(error.defects()[1].slice, 3U);
+    EXPECT_FALSE(error.defects()[1].contour);
+  }
+}
+
+TEST(Reconstruct, RefusesAStackWithFewerThanTwoOutlines) {
+  const Slice empty{5, {}};
+  const Slice filled{7, {stacks::square(1)}};
+  const Slice line{8, {{{{0, 0}, {1, 1}, {2, 2}}, {}}}};
+  for (const auto& slices : std::vector<std::vector<Slice>>{
+           {}, {empty}, {empty, empty}, {filled}, {empty, filled, line}})
+    EXPECT_THROW((void)reconstruct(slices), InputError);
+}
+
+TEST(Reconstruct, TakesOneLabelAtATime) {
+  std::vector<Slice> slices{{0, {stacks::square(3), stacks::square(1, {9, 9})}},
+                            {1, {stacks::square(3), stacks::square(1, {9, 9})}}};
+  for (Slice& slice : slices) slice.contours[1].label = "heart";
+  EXPECT_EQ(labels(slices), (std::vector<std::string>{"", "heart"}));
+  EXPECT_DOUBLE_EQ(measures(reconstruct(slices, {.label = "heart"}).surface).volume, 4);
+  EXPECT_DOUBLE_EQ(measures(reconstruct(slices, {.label = ""}).surface).volume, 36);
+  EXPECT_DOUBLE_EQ(measures(reconstruct(slices).surface).volume, 40);
+  EXPECT_THROW((void)reconstruct(slices, {.label = "liver"}), InputError);
+}
+
+TEST(Reconstruct, ReportsProgressAndStopsWhenAskedTo) {
+  const auto slices = stacks::sphere(10, 20);
+  std::vector<std::pair<Stage, double>> seen;
+  (void)reconstruct(slices, {}, [&](Stage stage, double fraction) {
+    seen.emplace_back(stage, fraction);
+    return true;
+  });
+  EXPECT_TRUE(std::ranges::is_sorted(seen));
+  EXPECT_EQ(seen.front(), std::pair(Stage::clean, 0.0));
+  EXPECT_EQ(seen.back(), std::pair(Stage::sew, 1.0));
+  EXPECT_THROW(
+      (void)reconstruct(slices, {}, [](Stage stage, double) { return stage != Stage::tile; }),
+      Cancelled);
+}
+
+/// Every random stack must make a valid solid: the product's promise.
+void expect_solid(const std::vector<Slice>& slices, Fill fill = Fill::even_odd) {
+  try {
+    EXPECT_EQ(faults(reconstruct(slices, {.fill = fill}).surface), "");
+  } catch (const InputError&) {
+    // Fewer than two slices with an area: rare, and right.
+  }
+}
+
+TEST(Reconstruct, AnyContoursMakeASolid) {
+  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    std::vector<Slice> slices;
+    for (int i = 0; i < 3; ++i) slices.push_back(stacks::random_slice(i, random, seed % 2 == 0));
+    expect_solid(slices, seed % 4 < 2 ? Fill::even_odd : Fill::nonzero);
+  }
+}
+
+TEST(Reconstruct, AnyMasksMakeASolid) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const double density = 0.3 + 0.1 * static_cast<double>(seed % 5);
+    std::vector<Slice> slices;
+    for (int i = 0; i < 4; ++i) slices.push_back(stacks::random_mask(i, random, 8, density));
+    expect_solid(slices);
+  }
+}
+
+TEST(Reconstruct, NearlyTheSameContoursMakeASolid) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    std::uniform_real_distribution<double> jitter(-1, 1);
+    const double size = std::pow(10, -1 - static_cast<double>(seed % 12));
+    std::vector<Slice> slices;
+    for (int i = 0; i < 4; ++i) {
+      Slice slice{i * 0.5, {stacks::circle(40, 1)}};
+      for (cdt::Point& p : slice.contours[0].points)
+        if (random() % 2 == 0) p = {p.x + size * jitter(random), p.y + size * jitter(random)};
+      slices.push_back(slice);
+    }
+    expect_solid(slices);
+  }
+}
+
+}  // namespace
+}  // namespace loft
