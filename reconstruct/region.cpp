@@ -35,8 +35,9 @@ std::vector<Point> normal_form(std::span<const Point> points) {
 }
 
 bool are_in_line(std::span<const Point> points) {
-  const auto [low, high] = std::ranges::minmax(points);
-  return std::ranges::all_of(points, [&](Point p) { return cdt::orient(low, high, p) == 0; });
+  const auto ends = std::ranges::minmax(points);
+  return std::ranges::all_of(points,
+                             [&](Point p) { return cdt::orient(ends.min, ends.max, p) == 0; });
 }
 
 /// A vertex and an edge that are nearer than that, relative to the coordinates, touch: 16

@@ -67,8 +67,7 @@ class Tiling {
       polygon_ = roof_;
       polygon_.insert(polygon_.end(), {to, from});
     }
-    const auto [last, end] = std::ranges::unique(polygon_);
-    polygon_.erase(last, end);
+    polygon_.erase(std::unique(polygon_.begin(), polygon_.end()), polygon_.end());
     while (polygon_.size() > 1 && polygon_.front() == polygon_.back()) polygon_.pop_back();
     if (polygon_.size() >= 3) fill_upright(place(from), place(to));
   }

@@ -60,7 +60,7 @@ inline std::vector<std::array<Point, 3>> triangles_of(const Triangulation& mesh)
     if (mesh.is_infinite(TriangleId(t))) continue;
     const EdgeId e = Triangulation::edge(TriangleId(t));
     std::array corners{mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), mesh.point(mesh.apex(e))};
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     triangles.push_back(corners);
   }
   std::ranges::sort(triangles);

@@ -29,12 +29,6 @@ std::string faults(const Surface& surface) {
 
 Measures measures(const Surface& surface) { return measure(to_mesh(surface)); }
 
-std::size_t count(const Surface& surface, VertexKind kind) {
-  std::size_t n = 0;
-  for (const auto v : surface.vertices()) n += surface.data(v).origin.kind == kind ? 1U : 0U;
-  return n;
-}
-
 std::size_t count_faces(const Surface& surface, FaceKind kind) {
   std::size_t n = 0;
   for (const auto f : surface.faces()) n += surface.data(f).kind == kind ? 1U : 0U;

@@ -88,7 +88,8 @@ TEST(Clean, DropsWhatHasNoArea) {
 TEST(Clean, DropsACopyOfAContourHoweverItIsWritten) {
   Slice slice{0, {stacks::square(3), stacks::square(3)}};
   std::ranges::reverse(slice.contours[1].points);
-  std::ranges::rotate(slice.contours[1].points, slice.contours[1].points.begin() + 1);
+  std::vector<Point>& copy = slice.contours[1].points;
+  std::rotate(copy.begin(), copy.begin() + 1, copy.end());
   slice.contours[1].points.push_back(slice.contours[1].points.front());
   std::vector<Defect> repairs;
   EXPECT_DOUBLE_EQ(area(clean_slice(slice, repairs)), 36);
