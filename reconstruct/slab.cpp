@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "cdt/predicates.h"
 #include "cdt/regions.h"
 
 namespace loft {
@@ -21,6 +22,26 @@ Vec3 Slab::place(cdt::VertexId v, double z) const {
   const double share = (z - lower_.z) / height();
   const cdt::Point p = overlay_.point(v);
   return {p.x - share * shift_.x, p.y - share * shift_.y, z};
+}
+
+bool Slab::is_exact() const {
+  if (overlay_.snaps() != 0) return false;
+  std::vector<std::uint8_t> passing(overlay_.vertex_count() + 1);  // segments through each vertex
+  for (std::uint32_t i = 0; i < overlay_.edge_count(); ++i) {
+    const cdt::EdgeId e(i);
+    for (const cdt::Passage passage : overlay_.passages(e)) {
+      const cdt::Segment& segment = overlay_.segment(passage.segment());
+      const cdt::VertexId v = overlay_.to(e);
+      if (!overlay_.is_forward(e, passage) || v == segment.to) continue;
+      if (is_vertex(v, level(passage.segment()))) return false;
+      const bool is_crossing = !is_vertex(v, other(level(passage.segment())));
+      if (is_crossing && ++passing[v.index()] > 2) return false;
+      if (!is_crossing && cdt::orient(overlay_.point(segment.from), overlay_.point(segment.to),
+                                      overlay_.point(v)) != 0)
+        return false;
+    }
+  }
+  return true;
 }
 
 void Slab::note_vertices(Level level) {

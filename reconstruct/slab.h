@@ -40,6 +40,10 @@ class Slab {
   /// Where an overlay vertex is in space, once it is lifted to height z.
   [[nodiscard]] Vec3 place(cdt::VertexId v, double z) const;
 
+  /// Whether rounding has decided nothing: contours of the two slices cross in vertices of their
+  /// own, and otherwise meet exactly where they pass through each other's vertices.
+  [[nodiscard]] bool is_exact() const;
+
   [[nodiscard]] Side side(cdt::TriangleId t) const { return sides_[t.index()]; }
   /// The side of the triangle left of an edge.
   [[nodiscard]] Side side(cdt::EdgeId e) const { return side(cdt::Triangulation::triangle(e)); }

@@ -184,7 +184,7 @@ Point shear(const Region& lower, const Region& upper, int attempt) {
     }
   }
   const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  const double step = std::max(size * 0x1p-30, farthest * 0x1p-40);
+  const double step = std::max(size * 0x1p-18, farthest * 0x1p-34);
   const double turn = 2.399963 * attempt;  // the golden angle
   return {attempt * step * std::cos(turn), attempt * step * std::sin(turn)};
 }
@@ -194,7 +194,7 @@ Point shear(const Region& lower, const Region& upper, int attempt) {
 TileSet tile(const Region& lower, const Region& upper) {
   for (int attempt = 0;; ++attempt) {
     Slab slab(lower, upper, shear(lower, upper, attempt));
-    if (slab.overlay().snaps() != 0 && attempt < most_shears) continue;
+    if (!slab.is_exact() && attempt < most_shears) continue;
     const Lift lift(slab);
     TileSet tiles = Tiling(slab, lift).run();
     collapse_crossings(lower, upper, tiles);
