@@ -45,6 +45,8 @@ const char* name(DefectKind kind) {
       return "empty_slice";
     case DefectKind::merged_slices:
       return "merged_slices";
+    case DefectKind::unlinked_slices:
+      return "unlinked_slices";
   }
   return "unknown";
 }

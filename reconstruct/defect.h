@@ -25,6 +25,7 @@ enum class DefectKind {
   touching,          ///< contours meet in a point or along an edge: kept, separated in the surface
   empty_slice,       ///< a slice without contours between others: the shape ends and starts again
   merged_slices,     ///< two slices of the same height: merged into one
+  unlinked_slices,   ///< no valid surface was found between two slices: both end half way
 };
 
 /// The kind's name as reports print it, for example `self_crossing`.

@@ -117,6 +117,24 @@ void add_beyond_ends(std::vector<Region>& regions) {
   regions.push_back(high);
 }
 
+/// Names the slabs that no valid tiles were found for.
+void report_unlinked(std::span<const Region> regions, std::span<const TileSet> slabs,
+                     std::vector<Defect>& repairs) {
+  for (std::size_t i = 0; i < slabs.size(); ++i)
+    if (!slabs[i].is_linked)
+      repairs.push_back(
+          {DefectKind::unlinked_slices,
+           regions[i].z,
+           regions[i].slice,
+           {},
+           {},
+           {},
+           0,
+           "no valid surface was found from here to slice " + std::to_string(regions[i + 1].slice) +
+               ", whose contours nearly coincide with these; the shape is interrupted "
+               "there. Make the contours equal or more different"});
+}
+
 class Reporter {
  public:
   Reporter(const Progress& progress, Stage stage, std::size_t steps)
@@ -187,6 +205,7 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
   const auto slabs = tile_all(regions, progress);
+  report_unlinked(regions, slabs, result.repairs);
   const Reporter sewing(progress, Stage::sew, 1);
   result.surface = sew(regions, slabs, options.cap);
   sewing.report(1);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <numeric>
 #include <set>
 #include <string>
 
@@ -349,20 +350,48 @@ namespace {
 /// than a few were never seen.
 constexpr int most_rounds = 16;
 
+/// For each point the one to put in its place: a crossing within a few roundings of another point
+/// is that point. Points of contours stay.
+std::vector<std::uint32_t> weld(const Region& region) {
+  const auto& points = region.points;
+  std::vector<std::uint32_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::vector<std::uint32_t> target = order;
+  std::ranges::sort(order, {}, [&](std::uint32_t i) { return points[i]; });
+  const auto is_crossing = [&](std::uint32_t i) {
+    return region.origins[i].kind == VertexKind::cleaning;
+  };
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Point p = points[order[i]];
+    const double near = 2 * tightness * std::max(std::abs(p.x), std::abs(p.y));
+    for (std::size_t j = i + 1; j < order.size() && points[order[j]].x - p.x <= near; ++j) {
+      if (std::abs(points[order[j]].y - p.y) > near) continue;
+      if (is_crossing(order[j])) {
+        target[order[j]] = target[order[i]];
+      } else if (is_crossing(order[i])) {
+        target[order[i]] = order[j];
+      }
+    }
+  }
+  for (std::uint32_t& i : target) i = target[i];
+  return target;
+}
+
 /// The loops of a region cleaned once more, as long as that changes anything.
 Region settle(Region region) {
   for (int round = 0; round < most_rounds; ++round) {
+    const std::vector<std::uint32_t> target = weld(region);
     std::vector<std::vector<Point>> loops(region.loop_count());
     std::vector<ContourSource> sources;
     for (std::uint32_t i = 0; i < loops.size(); ++i) {
-      for (const std::uint32_t v : region.loop(i)) loops[i].push_back(region.points[v]);
+      for (const std::uint32_t v : region.loop(i)) loops[i].push_back(region.points[target[v]]);
       sources.push_back({loops[i], region.slice, i});
     }
     std::vector<Defect> nothing_new;
     Region again = Cleaning(sources, region.z, Fill::even_odd, nothing_new).run();
     for (Origin& origin : again.origins)
       if (origin.kind == VertexKind::contour)
-        origin = region.origins[region.loop(origin.contour)[origin.point]];
+        origin = region.origins[target[region.loop(origin.contour)[origin.point]]];
     const bool is_same =
         again.points == region.points && again.loop_vertices == region.loop_vertices;
     region = std::move(again);

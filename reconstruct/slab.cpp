@@ -2,6 +2,7 @@
 #include "reconstruct/slab.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
@@ -42,6 +43,27 @@ bool Slab::is_exact() const {
     }
   }
   return true;
+}
+
+bool Slab::is_tight(double height) const {
+  const auto is_crossing = [this](cdt::VertexId v) {
+    return v != cdt::Triangulation::infinite && !is_vertex(v, Level::lower) &&
+           !is_vertex(v, Level::upper);
+  };
+  for (std::uint32_t i = 0; i < overlay_.edge_count(); ++i) {
+    const cdt::EdgeId e(i);
+    if (!is_crossing(overlay_.from(e)) || overlay_.is_infinite(cdt::Triangulation::triangle(e)))
+      continue;
+    const cdt::Point a = overlay_.point(overlay_.from(e));
+    const cdt::Point b = overlay_.point(overlay_.to(e));
+    const cdt::Point c = overlay_.point(overlay_.apex(e));
+    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    const double longest =
+        std::max({std::hypot(b.x - a.x, b.y - a.y), std::hypot(c.x - b.x, c.y - b.y),
+                  std::hypot(a.x - c.x, a.y - c.y)});
+    if (area < height * longest) return true;
+  }
+  return false;
 }
 
 void Slab::note_vertices(Level level) {

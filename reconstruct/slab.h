@@ -43,6 +43,8 @@ class Slab {
   /// Whether rounding has decided nothing: contours of the two slices cross in vertices of their
   /// own, and otherwise meet exactly where they pass through each other's vertices.
   [[nodiscard]] bool is_exact() const;
+  /// Whether a triangle at a crossing is lower than `height`: there rounding may matter.
+  [[nodiscard]] bool is_tight(double height) const;
 
   [[nodiscard]] Side side(cdt::TriangleId t) const { return sides_[t.index()]; }
   /// The side of the triangle left of an edge.

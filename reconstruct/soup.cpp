@@ -158,22 +158,19 @@ class Separation {
     return static_cast<std::uint32_t>(soup_.points.size() - 1);
   }
 
-  /// Edges that still join the same two vertices: all of them get midpoints, at one place, so that
-  /// they go on touching corner by corner.
+  /// Where edges at one place still join the same two vertices, all that are there get midpoints,
+  /// so that they go on touching corner by corner.
   void split_double_edges() {
+    const auto ends = [this](std::uint32_t h) {
+      return std::pair(std::min(from(h), to(h)), std::max(from(h), to(h)));
+    };
     for (const auto& half_edges : crowded_) {
-      const auto ends = [this](std::uint32_t h) {
-        return std::pair(std::min(from(h), to(h)), std::max(from(h), to(h)));
-      };
-      std::vector<std::uint32_t> doubles;
-      for (const std::uint32_t h : half_edges) {
-        if (mates_[h] == no_mate || mates_[h] < h) continue;
-        const auto has_same_ends = [&](std::uint32_t other) {
-          return other != h && other != mates_[h] && ends(other) == ends(h);
-        };
-        if (std::ranges::any_of(half_edges, has_same_ends)) doubles.push_back(h);
-      }
-      for (const std::uint32_t h : doubles) split_edge(h);
+      std::vector<std::uint32_t> edges;
+      for (const std::uint32_t h : half_edges)
+        if (mates_[h] != no_mate && h < mates_[h]) edges.push_back(h);
+      std::ranges::sort(edges, {}, ends);
+      if (std::ranges::adjacent_find(edges, {}, ends) == edges.end()) continue;
+      for (const std::uint32_t h : edges) split_edge(h);
     }
   }
 

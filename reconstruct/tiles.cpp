@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
+#include "reconstruct/box_tree.h"
 #include "reconstruct/crossings.h"
+#include "reconstruct/predicates.h"
 #include "reconstruct/slab.h"
 
 namespace loft {
@@ -18,6 +21,14 @@ using cdt::Point;
 using cdt::SegmentId;
 using cdt::Triangulation;
 using cdt::VertexId;
+
+Vec3 place_of(const Region& lower, const Region& upper, std::span<const InnerVertex> inner,
+              std::uint32_t node) {
+  if (node < lower.points.size()) return {lower.points[node].x, lower.points[node].y, lower.z};
+  node -= static_cast<std::uint32_t>(lower.points.size());
+  if (node < upper.points.size()) return {upper.points[node].x, upper.points[node].y, upper.z};
+  return inner[node - upper.points.size()].place;
+}
 
 /// Makes the sheets and walls of a lifted slab.
 class Tiling {
@@ -108,12 +119,7 @@ class Tiling {
   }
 
   [[nodiscard]] Vec3 place(std::uint32_t node) const {
-    const auto& lower = slab_.lower();
-    const auto& upper = slab_.upper();
-    if (node < lower.points.size()) return {lower.points[node].x, lower.points[node].y, lower.z};
-    node -= static_cast<std::uint32_t>(lower.points.size());
-    if (node < upper.points.size()) return {upper.points[node].x, upper.points[node].y, upper.z};
-    return tiles_.inner[node - upper.points.size()].place;
+    return place_of(slab_.lower(), slab_.upper(), tiles_.inner, node);
   }
 
   /// Triangulates polygon_, counter-clockwise as seen from outside, over the line from -> to.
@@ -167,14 +173,13 @@ class Tiling {
   std::vector<std::uint32_t> corner_;
 };
 
-/// Where contours of both slices meet within rounding of each other, as three lines through one
-/// point may, the overlay can't be exact. Then the slab is sheared a little before it is tiled, and
-/// back again: a shear keeps tiles valid, and nothing meets by chance any more.
-constexpr int most_shears = 8;
+/// Lengths of a slab that matter for rounding.
+struct Scale {
+  double shear;  // small against the slices, large against rounding
+  double tight;  // triangles lower than that are tested for what rounding does to them
+};
 
-/// The shear's offset: small against the slices, large against rounding, in no special direction.
-Point shear(const Region& lower, const Region& upper, int attempt) {
-  if (attempt == 0) return {};
+Scale scale(const Region& lower, const Region& upper) {
   cdt::Box box;
   double farthest = 0;
   for (const Region* region : {&lower, &upper}) {
@@ -183,23 +188,72 @@ Point shear(const Region& lower, const Region& upper, int attempt) {
       farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
     }
   }
-  const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  const double step = std::max(size * 0x1p-18, farthest * 0x1p-34);
-  const double turn = 2.399963 * attempt;  // the golden angle
-  return {attempt * step * std::cos(turn), attempt * step * std::sin(turn)};
+  const double size = box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  return {std::max(size * 0x1p-18, farthest * 0x1p-34),
+          std::max(size * 0x1p-28, farthest * 0x1p-44)};
 }
+
+/// Whether two tiles meet elsewhere than in common corners and edges (exact).
+bool meet(const Region& lower, const Region& upper, const TileSet& tiles) {
+  std::vector<Corners> corners;
+  std::vector<Box3> boxes;
+  for (const Tile& tile : tiles.tiles) {
+    auto& places = corners.emplace_back();
+    for (unsigned i = 0; i < 3; ++i) places[i] = place_of(lower, upper, tiles.inner, tile.nodes[i]);
+    boxes.push_back(box_around(places[0], places[1], places[2]));
+    if (collinear(places[0], places[1], places[2])) return true;
+  }
+  bool is_found = false;
+  BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+    is_found = is_found || triangles_meet(corners[i], corners[j]);
+  });
+  return is_found;
+}
+
+/// Both regions end half way: nothing of one slice is near anything of the other.
+TileSet tile_apart(const Region& lower, const Region& upper) {
+  Region nothing;
+  nothing.z = lower.z + (upper.z - lower.z) / 2;
+  nothing.loop_starts = {0};
+  TileSet tiles = tile(lower, nothing);
+  TileSet above = tile(nothing, upper);
+  const auto lower_count = static_cast<std::uint32_t>(lower.points.size());
+  const auto upper_count = static_cast<std::uint32_t>(upper.points.size());
+  for (Tile& tile : tiles.tiles)
+    for (std::uint32_t& node : tile.nodes)
+      if (node >= lower_count) node += upper_count;
+  const auto inner_count = static_cast<std::uint32_t>(tiles.inner.size());
+  for (Tile& tile : above.tiles)
+    for (std::uint32_t& node : tile.nodes)
+      node += lower_count + (node >= upper_count ? inner_count : 0);
+  tiles.inner.insert(tiles.inner.end(), above.inner.begin(), above.inner.end());
+  tiles.tiles.insert(tiles.tiles.end(), above.tiles.begin(), above.tiles.end());
+  tiles.is_linked = false;
+  return tiles;
+}
+
+/// That often a slab is sheared anew before its slices are left apart.
+constexpr int most_shears = 12;
 
 }  // namespace
 
+/// Where contours of both slices meet within rounding of each other, as three lines through one
+/// point may, the overlay can't be exact. Then the slab is sheared a little before it is tiled, in
+/// no special direction, and back again: a shear keeps tiles valid, and nothing meets by chance.
 TileSet tile(const Region& lower, const Region& upper) {
-  for (int attempt = 0;; ++attempt) {
-    Slab slab(lower, upper, shear(lower, upper, attempt));
-    if (!slab.is_exact() && attempt < most_shears) continue;
+  const Scale lengths = scale(lower, upper);
+  for (int attempt = 0; attempt < most_shears; ++attempt) {
+    const double turn = 2.399963 * attempt;  // the golden angle
+    const double step = attempt * lengths.shear;
+    Slab slab(lower, upper, {step * std::cos(turn), step * std::sin(turn)});
+    if (!slab.is_exact()) continue;
+    const bool is_doubtful = slab.is_tight(lengths.tight) || attempt > 0;
     const Lift lift(slab);
     TileSet tiles = Tiling(slab, lift).run();
     collapse_crossings(lower, upper, tiles);
-    return tiles;
+    if (!is_doubtful || !meet(lower, upper, tiles)) return tiles;
   }
+  return tile_apart(lower, upper);
 }
 
 }  // namespace loft

@@ -23,6 +23,7 @@ struct Tile {
 struct TileSet {
   std::vector<InnerVertex> inner;
   std::vector<Tile> tiles;
+  bool is_linked = true;  ///< false: no valid tiles between the slices were found, both end here
 };
 
 /// The surface between two neighbouring slices (design, section 3, steps 1 to 6): a pure function
