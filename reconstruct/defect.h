@@ -34,13 +34,13 @@ enum class DefectKind {
 /// One thing that is or was wrong with the input, and where.
 struct Defect {
   DefectKind kind;
-  double z = 0;                          ///< height of the slice
-  std::uint32_t slice = 0;               ///< index of the slice in the order of the input
-  std::optional<std::uint32_t> contour;  ///< index in its slice
-  std::optional<std::uint32_t> point;    ///< index in its contour
-  std::optional<cdt::Point> place;       ///< where in the slice
-  double area = 0;                       ///< area that the repair changed, in square units
-  std::string message;                   ///< what is wrong and the way out, without the place
+  double z = 0;                               ///< height of the slice
+  std::uint32_t slice = 0;                    ///< index of the slice in the order of the input
+  std::optional<std::uint32_t> contour = {};  ///< index in its slice
+  std::optional<std::uint32_t> point = {};    ///< index in its contour
+  std::optional<cdt::Point> place = {};       ///< where in the slice
+  double area = 0;                            ///< area that the repair changed, in square units
+  std::string message = {};                   ///< what is wrong and the way out, without the place
 };
 
 /// `slice 42 (z = 10.5) contour 3 point 7 near (12.1, 40.7): message`, as far as known.

@@ -23,7 +23,7 @@ struct Options {
   Fill fill = Fill::even_odd;
   Cap cap = Cap::flat;
   /// Only contours with this label; all contours where not set.
-  std::optional<std::string> label;
+  std::optional<std::string> label = {};
 };
 
 }  // namespace loft

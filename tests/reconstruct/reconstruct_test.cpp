@@ -192,7 +192,7 @@ TEST(Reconstruct, CapsAreFlatRoundOrMissing) {
   EXPECT_EQ(faults(open), "boundary_edge ");
   EXPECT_EQ(open.n_faces(), flat.n_faces() - 76);
   for (const auto h : open.halfedges())
-    if (open.is_boundary(h)) EXPECT_TRUE(open.is_boundary(open.next_halfedge_handle(h)));
+    EXPECT_EQ(open.is_boundary(h), open.is_boundary(open.next_halfedge_handle(h)));
 }
 
 TEST(Reconstruct, SortsSlicesAndMergesThoseOfOneHeight) {
