@@ -15,6 +15,7 @@ using cdt::Triangulation;
 
 constexpr double steepness = 0.7;    // k in the header
 constexpr double highest_end = 0.7;  // of the slab
+constexpr double lowest_end = 0.05;  // so that a cut just beside the slice still shows small parts
 
 /// Inner vertices keep that share of the slab's height away from the slices.
 constexpr double least_share = 1e-3;
@@ -45,13 +46,23 @@ double SheetHeights::height(EdgeId e, Point p) {
 double SheetHeights::end_share(const Sheet& sheet, Point p) const {
   if (!(sheet.radius > 0)) return 0;
   const double inwards = 1 - std::min(sheet.depth(p) / sheet.radius, 1.0);
-  return std::min(highest_end, sheet.radius / slab_.height()) * (1 - inwards * inwards);
+  const double top = std::clamp(sheet.radius / slab_.height(), lowest_end, highest_end);
+  return top * (1 - inwards * inwards);
 }
 
 const SheetHeights::Sheet& SheetHeights::sheet(EdgeId e) {
   const TriangleId t = Triangulation::triangle(e);
   if (sheet_of_[t.index()] == Origin::none) explore(t);
   return sheets_[sheet_of_[t.index()]];
+}
+
+Point SheetHeights::centroid(TriangleId t) const {
+  const Triangulation& mesh = slab_.overlay();
+  const EdgeId e = Triangulation::edge(t);
+  const Point a = mesh.point(mesh.from(e));
+  const Point b = mesh.point(mesh.to(e));
+  const Point c = mesh.point(mesh.apex(e));
+  return {a.x + ((b.x - a.x) + (c.x - a.x)) / 3, a.y + ((b.y - a.y) + (c.y - a.y)) / 3};
 }
 
 void SheetHeights::explore(TriangleId start) {
@@ -64,6 +75,7 @@ void SheetHeights::explore(TriangleId start) {
   while (!front.empty()) {
     const TriangleId t = front.back();
     front.pop_back();
+    middles.push_back(centroid(t));
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(t, corner);
       const Point a = mesh.point(mesh.from(e));

@@ -26,7 +26,7 @@ class SheetHeights {
   /// k = 1 is shape-based interpolation (Raya and Udupa, 1990). With k = 0.7 the surface leaves
   /// the contours more steeply, as round forks do: on 11 stacks cut from known shapes it came 0 to
   /// 3% nearer to them.
-  /// In an end it is a paraboloid, as high as the sheet is wide at most, and at most 0.7 of the
+  /// In an end it is a paraboloid, as high as the sheet is deep, from 0.05 to at most 0.7 of the
   /// slab: a smooth shape's last slice is as likely to be at any height below its top, and the
   /// area of what is beyond grows with that height, so that half of all such area is in ends
   /// higher than 0.71 of the gap.
@@ -36,7 +36,7 @@ class SheetHeights {
   struct Sheet {
     NearestSegment lower;
     NearestSegment upper;
-    double radius = 0;  // of an end: the largest depth of an edge's midpoint
+    double radius = 0;  // of an end: the largest depth of the middle of an edge or triangle
 
     [[nodiscard]] bool is_end() const { return lower.is_empty() || upper.is_empty(); }
     [[nodiscard]] double depth(cdt::Point p) const {
@@ -46,6 +46,7 @@ class SheetHeights {
 
   const Sheet& sheet(cdt::EdgeId e);
   void explore(cdt::TriangleId start);
+  [[nodiscard]] cdt::Point centroid(cdt::TriangleId t) const;
   [[nodiscard]] double end_share(const Sheet& sheet, cdt::Point p) const;
 
   const Slab& slab_;
