@@ -260,9 +260,25 @@ bool Lift::insert(std::vector<Steiner> steiners) {
 std::optional<VertexId> Lift::split(const Steiner& steiner) {
   const auto e = mesh_.find_edge(steiner.corners[0], steiner.corners[1]);
   if (!e) return {};
-  if (steiner.corners[2].is_none()) return slab_.split(*e, steiner.place);
+  if (steiner.corners[2].is_none()) return split(*e, steiner.place);
   if (mesh_.apex(*e) != steiner.corners[2]) return {};
   return slab_.split(Triangulation::triangle(*e), steiner.place);
+}
+
+/// At a point on the edge; where a triangle beside it is so thin that the rounded point is beyond
+/// it, a little into the other triangle.
+std::optional<VertexId> Lift::split(EdgeId e, Point place) {
+  if (const auto v = slab_.split(e, place)) return v;
+  for (const double share : {0x1p-40, 0x1p-30, 0x1p-20, 0x1p-10}) {
+    for (const EdgeId side : {e, mesh_.twin(e)}) {
+      if (mesh_.is_infinite(Triangulation::triangle(side))) continue;
+      const Point apex = mesh_.point(mesh_.apex(side));
+      const Point inside{place.x + share * (apex.x - place.x),
+                         place.y + share * (apex.y - place.y)};
+      if (const auto v = slab_.split(e, inside)) return v;
+    }
+  }
+  return {};
 }
 
 }  // namespace loft

@@ -73,6 +73,7 @@ class Lift {
   [[nodiscard]] bool is_chord(cdt::EdgeId e) const;
   [[nodiscard]] bool is_flat(cdt::EdgeId e) const;
   std::optional<cdt::VertexId> split(const Steiner& steiner);
+  std::optional<cdt::VertexId> split(cdt::EdgeId e, cdt::Point place);
 
   Slab& slab_;
   const cdt::Triangulation& mesh_;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <random>
@@ -295,13 +296,65 @@ void expect_solid(const std::vector<Slice>& slices, Fill fill = Fill::even_odd) 
   }
 }
 
+/// Three slices of random contours.
+std::vector<Slice> random_stack(std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::vector<Slice> slices;
+  for (int i = 0; i < 3; ++i) slices.push_back(stacks::random_slice(i, random, seed % 2 == 0));
+  return slices;
+}
+
+Fill random_fill(std::uint64_t seed) { return seed % 4 < 2 ? Fill::even_odd : Fill::nonzero; }
+
 TEST(Reconstruct, AnyContoursMakeASolid) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_solid(random_stack(seed), random_fill(seed));
+  }
+}
+
+// A chord beside a triangle so thin that its rounded midpoint was beyond it.
+TEST(Reconstruct, ChordsBesideSliversLeaveTheSlicePlane) {
+  for (const std::uint64_t seed : {11778U, 11994U, 15796U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_solid(random_stack(seed), random_fill(seed));
+  }
+}
+
+// Of edges at one place that needed midpoints, one with an end of its own was left whole.
+TEST(Reconstruct, EdgesThatTouchAreAllSplitWhereOneIs) {
+  for (const std::uint64_t seed : {122U, 2940U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_solid(random_stack(seed), random_fill(seed));
+  }
+}
+
+TEST(Reconstruct, CopiesThatAreTurnedALittleMakeASolid) {
+  for (std::uint64_t seed = 0; seed < 100; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
+    const Slice base = stacks::random_slice(0, random, seed % 2 == 0);
+    const double turn = std::pow(10, -static_cast<double>(seed % 16));
     std::vector<Slice> slices;
-    for (int i = 0; i < 3; ++i) slices.push_back(stacks::random_slice(i, random, seed % 2 == 0));
-    expect_solid(slices, seed % 4 < 2 ? Fill::even_odd : Fill::nonzero);
+    for (int i = 0; i < 3; ++i) {
+      Slice slice = base;
+      slice.z = i;
+      for (Contour& contour : slice.contours)
+        for (cdt::Point& p : contour.points)
+          p = {p.x * std::cos(turn * i) - p.y * std::sin(turn * i),
+               p.x * std::sin(turn * i) + p.y * std::cos(turn * i)};
+      slices.push_back(slice);
+    }
+    expect_solid(slices);
+  }
+}
+
+TEST(Reconstruct, SlicesAHairApartMakeASolid) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    auto slices = random_stack(seed);
+    for (Slice& slice : slices) slice.z *= 1e-9;
+    expect_solid(slices);
   }
 }
 
