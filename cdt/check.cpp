@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "cdt/check.h"
 
+#include <algorithm>
 #include <sstream>
 
 #include "cdt/predicates.h"

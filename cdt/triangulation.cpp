@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "cdt/predicates.h"
@@ -32,9 +33,10 @@ void Triangulation::reserve(std::size_t vertices) {
 
 ConstraintId Triangulation::insert(std::span<const Point> points, Ends ends) {
   if (points.empty()) throw std::invalid_argument("a constraint needs a point");
+  const auto is_usable = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const Point p : points)
-    if (!std::isfinite(p.x) || !std::isfinite(p.y))
-      throw std::invalid_argument("a constraint needs finite coordinates");
+    if (!is_usable(p.x) || !is_usable(p.y))
+      throw std::invalid_argument("a constraint needs coordinates that are finite and below 1e75");
 
   const ConstraintId id(static_cast<std::uint32_t>(constraints_.size()));
   const auto first_segment = static_cast<std::uint32_t>(segments_.size());
@@ -82,13 +84,17 @@ std::optional<VertexId> Triangulation::split(TriangleId t, Point point) {
 }
 
 std::optional<EdgeId> Triangulation::find_edge(VertexId a, VertexId b) const {
-  const EdgeId first = edge(a);
-  if (first.is_none()) return {};
-  EdgeId e = first;
-  do {
+  const EdgeId first_at_a = edge(a);
+  const EdgeId first_at_b = edge(b);
+  if (first_at_a.is_none()) return {};
+  EdgeId e = first_at_a;
+  EdgeId f = first_at_b;
+  do {  // around both in step
     if (to(e) == b) return e;
+    if (to(f) == a) return twin(f);
     e = rotated(e);
-  } while (e != first);
+    f = rotated(f);
+  } while (e != first_at_a && f != first_at_b);
   return {};
 }
 

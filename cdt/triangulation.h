@@ -48,7 +48,7 @@ struct Segment {
 /// passage is constrained Delaunay, ties broken by the coordinates alone (in_circle_perturbed).
 /// Crossing points are computed from the two segments as inserted and correctly rounded. Where
 /// rounding would turn a triangle over, the later segment goes through a vertex nearby instead:
-/// snaps() counts that. It never fails and never hangs on finite coordinates.
+/// snaps() counts that. It never fails and never hangs.
 ///
 /// Structure. Triangles beyond the convex hull share one infinite vertex, so that every edge has a
 /// triangle on each side and no bounding box is needed. An oriented edge is 3 * triangle + corner;
@@ -59,6 +59,9 @@ class Triangulation {
   /// The vertex at infinity.
   static constexpr VertexId infinite{0};
 
+  /// Beyond it products of four coordinates overflow.
+  static constexpr double largest_coordinate = 1e75;
+
   Triangulation() { clear(); }
 
   /// Forgets everything, keeps the memory.
@@ -67,8 +70,8 @@ class Triangulation {
   void reserve(std::size_t vertices);
 
   /// Inserts a polyline, or a single point. Cost: location from the last place, then in practice
-  /// constant a vertex and a crossing. Precondition: coordinates are finite, there is a point.
-  /// Throws std::invalid_argument otherwise, and then changes nothing.
+  /// constant a vertex and a crossing. Precondition: there is a point, coordinates are at most
+  /// largest_coordinate. Throws std::invalid_argument otherwise, and then changes nothing.
   ConstraintId insert(std::span<const Point> points, Ends ends);
   /// Inserts a vertex that belongs to no constraint, or finds the one that is there.
   VertexId insert(Point point);
@@ -116,7 +119,7 @@ class Triangulation {
   [[nodiscard]] std::size_t triangle_count() const { return edges_.size() / 3; }
   [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
 
-  /// The edge between two vertices, if there is one. Cost: the degree of `a`.
+  /// The edge between two vertices, if there is one. Cost: the smaller degree.
   [[nodiscard]] std::optional<EdgeId> find_edge(VertexId a, VertexId b) const;
 
   // Constraints.

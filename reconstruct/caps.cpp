@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/caps.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include "cdt/regions.h"
 
 namespace loft {
@@ -18,8 +21,10 @@ std::vector<std::array<std::uint32_t, 3>> flat_cap(const Region& region) {
   for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
     if (!is_inside[t]) continue;
     const cdt::EdgeId e = cdt::Triangulation::edge(cdt::TriangleId(t));
-    triangles.push_back(
-        {index[mesh.from(e).index()], index[mesh.to(e).index()], index[mesh.apex(e).index()]});
+    const std::array corners{index[mesh.from(e).index()], index[mesh.to(e).index()],
+                             index[mesh.apex(e).index()]};
+    assert(std::ranges::find(corners, Origin::none) == corners.end());  // loops do not cross
+    triangles.push_back(corners);
   }
   return triangles;
 }

@@ -2,9 +2,12 @@
 #include "reconstruct/crossings.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "reconstruct/predicates.h"
 #include "reconstruct/tile_grid.h"
@@ -16,6 +19,13 @@ namespace {
 /// How far from a collapsed crossing the new tiles may be, in heights of the slab. Without a bound
 /// a stack with many handles lost a quarter of its accuracy (design, section 3, step 6).
 constexpr double most_drift = 0.3;
+
+/// Bounds of the effort for one crossing: nodes around it, and targets tried.
+constexpr std::size_t largest_link = 256;
+constexpr std::size_t most_targets = 16;
+
+/// A collapse may make room for another: that often all are tried.
+constexpr int most_passes = 4;
 
 constexpr std::uint32_t none = Origin::none;
 
@@ -80,7 +90,7 @@ class Collapse {
     std::erase_if(crossings_, [this](std::uint32_t p) { return slot_[p] == none; });
     grid_.emplace(tiles_.size(), [this](std::uint32_t f) { return footprint(tiles_[f].nodes); });
     bool is_changed = true;
-    while (is_changed) {  // a collapse may make room for another
+    for (int pass = 0; is_changed && pass < most_passes; ++pass) {
       is_changed = false;
       for (std::uint32_t& p : crossings_) {
         if (p == none || !collapse(p)) continue;
@@ -157,6 +167,7 @@ class Collapse {
   bool find_link(std::uint32_t p) {
     link_.clear();
     const auto& faces = faces_at(p);
+    if (faces.size() > largest_link) return false;
     const auto ahead = [&](std::uint32_t face) {  // the edge opposite to p
       const Nodes& n = tiles_[face].nodes;
       const unsigned i = n[0] == p ? 0 : n[1] == p ? 1 : 2;
@@ -192,6 +203,7 @@ class Collapse {
       if (a.shape != b.shape) return a.shape > b.shape;
       return place(link_[a.at]) < place(link_[b.at]);
     });
+    if (targets.size() > most_targets) targets.resize(most_targets);
     for (const Target& target : targets) {
       make_fan(target.at);
       if (meets_nothing(p)) {

@@ -23,6 +23,8 @@ const char* name(DefectKind kind) {
   switch (kind) {
     case DefectKind::not_finite:
       return "not_finite";
+    case DefectKind::slices_too_near:
+      return "slices_too_near";
     case DefectKind::too_few_slices:
       return "too_few_slices";
     case DefectKind::too_few_points:

@@ -15,7 +15,7 @@ enum class Fill {
 /// What closes the first and the last slice.
 enum class Cap {
   flat,  ///< the region of the slice itself
-  dome,  ///< a rounded end, at most half a slice distance high
+  dome,  ///< a rounded end, at most 0.7 of the distance to the next slice high
   open,  ///< nothing: the surface ends in the contours
 };
 

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <string>
 
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
@@ -20,32 +23,36 @@ struct Layer {
   std::vector<ContourSource> contours;
 };
 
+bool is_usable(double x) { return std::abs(x) <= cdt::Triangulation::largest_coordinate; }
+
 std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
   std::vector<Defect> found;
   for (std::uint32_t s = 0; s < slices.size(); ++s) {
     const Slice& slice = slices[s];
-    if (!std::isfinite(slice.z))
-      found.push_back({DefectKind::not_finite,
-                       slice.z,
-                       s,
-                       {},
-                       {},
-                       {},
-                       0,
-                       "the height is not a finite number; give it one or leave the slice out"});
+    if (!is_usable(slice.z))
+      found.push_back(
+          {DefectKind::not_finite,
+           slice.z,
+           s,
+           {},
+           {},
+           {},
+           0,
+           "the height is not a finite number below 1e75; correct it or leave the slice out"});
     for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
       const auto& points = slice.contours[c].points;
       for (std::uint32_t p = 0; p < points.size(); ++p)
-        if (!std::isfinite(points[p].x) || !std::isfinite(points[p].y))
-          found.push_back({DefectKind::not_finite,
-                           slice.z,
-                           s,
-                           c,
-                           p,
-                           {},
-                           0,
-                           "a coordinate is not a finite number; correct the point or leave it "
-                           "out"});
+        if (!is_usable(points[p].x) || !is_usable(points[p].y))
+          found.push_back(
+              {DefectKind::not_finite,
+               slice.z,
+               s,
+               c,
+               p,
+               {},
+               0,
+               "a coordinate is not a finite number below 1e75; correct the point or leave it "
+               "out"});
     }
   }
   return found;
@@ -79,6 +86,28 @@ std::vector<Layer> find_layers(std::span<const Slice> slices,
         layers.back().contours.push_back({slice.contours[c].points, s, c});
   }
   return layers;
+}
+
+/// Between slices there must be room for heights that are different numbers.
+void check_gaps(std::span<const Layer> layers) {
+  constexpr double least_gap = 0x1p-40;  // relative to the height
+  std::vector<Defect> found;
+  for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
+    const double height = std::max(std::abs(layers[i].z), std::abs(layers[i + 1].z));
+    if (layers[i + 1].z - layers[i].z < least_gap * height)
+      found.push_back(
+          {DefectKind::slices_too_near,
+           layers[i + 1].z,
+           layers[i + 1].slice,
+           {},
+           {},
+           {},
+           0,
+           "is nearer to slice " + std::to_string(layers[i].slice) +
+               " than rounding allows at that height; leave one out, or give heights from "
+               "an origin nearby"});
+  }
+  if (!found.empty()) throw InputError(std::move(found));
 }
 
 /// Leaves out the empty regions at both ends; those between are where the shape is interrupted.
@@ -201,6 +230,8 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   if (auto fatal = find_not_finite(slices); !fatal.empty()) throw InputError(std::move(fatal));
   Reconstruction result;
   const auto layers = find_layers(slices, options.label, result.repairs);
+  check_gaps(layers);
+  check_gaps(layers);
   auto regions = trim(clean_all(layers, options.fill, result.repairs, progress), result.repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
@@ -209,6 +240,7 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   const Reporter sewing(progress, Stage::sew, 1);
   result.surface = sew(regions, slabs, options.cap);
   sewing.report(1);
+  std::ranges::stable_sort(result.repairs, {}, &Defect::z);
   return result;
 }
 

@@ -16,7 +16,7 @@ namespace loft {
 /// A surface and what was found and repaired on the way to it.
 struct Reconstruction {
   Surface surface;
-  std::vector<Defect> repairs;  ///< in the order of slices; none is fatal
+  std::vector<Defect> repairs;  ///< in the order of heights; none is fatal
 };
 
 /// Thrown by reconstruct() when its Progress asked for it.
@@ -34,8 +34,9 @@ class Cancelled : public Error {
 ///
 /// Slices may come in any order of height; those of equal height are merged. Leading and trailing
 /// empty slices are left out.
-/// Throws InputError with all fatal defects: a coordinate that is not finite, fewer than two
-/// slices with an area.
+/// Throws InputError with all fatal defects: a coordinate that is not finite or beyond 1e75, slices
+/// so near to one another that rounding leaves nothing between them, fewer than two slices with an
+/// area.
 /// Cost: O(n log n) for n contour points, in practice; memory in proportion to the result.
 [[nodiscard]] Reconstruction reconstruct(std::span<const Slice> slices, const Options& options = {},
                                          const Progress& progress = {});

@@ -2,6 +2,7 @@
 #include "reconstruct/region.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
@@ -113,7 +114,6 @@ class Cleaning {
   void note_sources() {
     origins_.assign(mesh_.vertex_count() + 1,
                     Origin{VertexKind::cleaning, Origin::none, Origin::none, Origin::none});
-    std::vector<bool> is_visited_again(mesh_.vertex_count() + 1);
     for (std::uint32_t c = 0; c < chosen_.size(); ++c) {
       const ContourSource& source = contours_[chosen_[c]];
       const auto segments = mesh_.segments(cdt::ConstraintId(c));

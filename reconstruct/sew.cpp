@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/sew.h"
 
+#include <algorithm>
+#include <utility>
+
 #include "reconstruct/caps.h"
 #include "reconstruct/soup.h"
 
@@ -18,7 +21,9 @@ class Gathering {
     reserve();
     for (std::uint32_t i = 0; i < regions_.size(); ++i) {
       add_slice(regions_[i]);
-      if (i < slabs_.size()) add_inner(slabs_[i], regions_[i].slice);
+      if (i >= slabs_.size()) continue;
+      add_inner(slabs_[i], regions_[i].slice);
+      soup_.slab_slices.push_back(regions_[i].slice);
     }
     if (cap == Cap::flat) add_cap(0, FaceKind::bottom_cap);
     for (std::uint32_t i = 0; i < slabs_.size(); ++i) add_tiles(i);

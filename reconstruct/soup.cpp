@@ -2,8 +2,10 @@
 #include "reconstruct/soup.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "reconstruct/predicates.h"
@@ -166,8 +168,10 @@ class Separation {
     };
     for (const auto& half_edges : crowded_) {
       std::vector<std::uint32_t> edges;
-      for (const std::uint32_t h : half_edges)
+      for (std::uint32_t h : half_edges) {
+        for (auto to = moved_.find(h); to != moved_.end(); to = moved_.find(h)) h = to->second;
         if (mates_[h] != no_mate && h < mates_[h]) edges.push_back(h);
+      }
       std::ranges::sort(edges, {}, ends);
       if (std::ranges::adjacent_find(edges, {}, ends) == edges.end()) continue;
       for (const std::uint32_t h : edges) split_edge(h);
@@ -182,8 +186,8 @@ class Separation {
     const auto middle = static_cast<std::uint32_t>(soup_.points.size());
     soup_.points.push_back(
         {p[0] + (q[0] - p[0]) / 2, p[1] + (q[1] - p[1]) / 2, p[2] + (q[2] - p[2]) / 2});
-    soup_.origins.push_back(
-        {VertexKind::steiner, soup_.faces[h / 3].slab, Origin::none, Origin::none});
+    soup_.origins.push_back({VertexKind::steiner, soup_.slab_slices[soup_.faces[h / 3].slab],
+                             Origin::none, Origin::none});
     const std::uint32_t h_half = cut(h, middle);
     const std::uint32_t g_half = cut(g, middle);
     join(h, g_half);
@@ -202,12 +206,14 @@ class Separation {
       join(3 * f + 1, mates_[n]);
     }
     soup_.faces[h / 3].corners[n % 3] = middle;
+    moved_[n] = 3 * f + 1;
     join(n, 3 * f + 2);
     return 3 * f;
   }
 
   Soup& soup_;
   Mates mates_;
+  std::map<std::uint32_t, std::uint32_t> moved_;     // half-edges that cuts gave another number
   std::vector<std::vector<std::uint32_t>> crowded_;  // half-edges where more than two faces meet
 };
 

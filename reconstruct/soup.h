@@ -22,6 +22,7 @@ struct Soup {
   std::vector<Vec3> points;
   std::vector<Origin> origins;  // of each point
   std::vector<Face> faces;
+  std::vector<std::uint32_t> slab_slices;  // the input's slice below each slab
 };
 
 /// Half-edge i of face f is `3 * f + i`, from corner i to the next. For each the one that the

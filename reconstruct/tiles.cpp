@@ -43,6 +43,9 @@ class Tiling {
     return std::move(tiles_);
   }
 
+  /// Whether a wall had to be closed without regard to its shape.
+  [[nodiscard]] bool is_forced() const { return is_forced_; }
+
  private:
   /// Sheets of the lower region have the solid below them, those of the upper one above.
   void add_sheets() {
@@ -136,6 +139,8 @@ class Tiling {
     if (tiles_.tiles.size() == count + polygon_.size() - 2) return;
     // A triangle; or rounding has bent the roof into the base: then what counts is to close it.
     tiles_.tiles.resize(count);
+    is_forced_ =
+        is_forced_ || polygon_.size() > 3 || cdt::orient(flat_[0], flat_[1], flat_[2]) == 0;
     for (std::size_t i = 1; i + 1 < polygon_.size(); ++i)
       add({polygon_[0], polygon_[i], polygon_[i + 1]}, FaceKind::wall);
   }
@@ -164,6 +169,7 @@ class Tiling {
   const Triangulation& mesh_;
   const Lift& lift_;
   TileSet tiles_;
+  bool is_forced_ = false;
 
   // Of the wall at hand.
   std::vector<std::uint32_t> roof_;
@@ -242,14 +248,17 @@ constexpr int most_shears = 12;
 /// no special direction, and back again: a shear keeps tiles valid, and nothing meets by chance.
 TileSet tile(const Region& lower, const Region& upper) {
   const Scale lengths = scale(lower, upper);
+  const bool is_end = lower.is_empty() || upper.is_empty();  // nothing that could coincide
   for (int attempt = 0; attempt < most_shears; ++attempt) {
     const double turn = 2.399963 * attempt;  // the golden angle
     const double step = attempt * lengths.shear;
     Slab slab(lower, upper, {step * std::cos(turn), step * std::sin(turn)});
-    if (!slab.is_exact()) continue;
-    const bool is_doubtful = slab.is_tight(lengths.tight) || attempt > 0;
+    if (!is_end && !slab.is_exact()) continue;
     const Lift lift(slab);
-    TileSet tiles = Tiling(slab, lift).run();
+    Tiling tiling(slab, lift);
+    TileSet tiles = tiling.run();
+    if (is_end) return tiles;
+    const bool is_doubtful = attempt > 0 || tiling.is_forced() || slab.is_tight(lengths.tight);
     collapse_crossings(lower, upper, tiles);
     if (!is_doubtful || !meet(lower, upper, tiles)) return tiles;
   }

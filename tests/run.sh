@@ -20,6 +20,11 @@ rm -f "$results"
 outcome=0
 ctest --preset "$preset" -j "$(nproc)" --output-junit "$PWD/$results" || outcome=$?
 
+if [ ! -f "$results" ]; then
+  echo "0 passed, 1 failed"
+  exit 1
+fi
+
 # The first element of the report: <testsuite ... tests="12" failures="1" skipped="0" ...>
 count() { sed -n "s/^[[:space:]]*$1=\"\([0-9]*\)\".*/\1/p" "$results" | head -n 1; }
 failed=$(count failures)

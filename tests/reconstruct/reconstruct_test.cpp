@@ -261,6 +261,24 @@ TEST(Reconstruct, RefusesAStackWithFewerThanTwoOutlines) {
     EXPECT_THROW((void)reconstruct(slices), InputError);
 }
 
+TEST(Reconstruct, RefusesNumbersThatLeaveNoRoomForExactDecisions) {
+  auto huge = stacks::sphere(4, 6);
+  huge[1].contours[0].points[0].x = 1e200;
+  EXPECT_THROW((void)reconstruct(huge), InputError);
+  auto high = stacks::sphere(4, 6);
+  high[3].z = -1e308;
+  EXPECT_THROW((void)reconstruct(high), InputError);
+  const std::vector<Slice> near{{1e15, {stacks::square(1)}}, {1e15 + 1, {stacks::square(2)}}};
+  try {
+    (void)reconstruct(near);
+    FAIL();
+  } catch (const InputError& error) {
+    ASSERT_EQ(error.defects().size(), 1U);
+    EXPECT_EQ(error.defects()[0].kind, DefectKind::slices_too_near);
+    EXPECT_EQ(error.defects()[0].slice, 1U);
+  }
+}
+
 TEST(Reconstruct, TakesOneLabelAtATime) {
   std::vector<Slice> slices{{0, {stacks::square(3), stacks::square(1, {9, 9})}},
                             {1, {stacks::square(3), stacks::square(1, {9, 9})}}};
