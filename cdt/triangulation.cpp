@@ -200,41 +200,37 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   return v;
 }
 
-/// The first two vertices: one edge, an infinite triangle on each side.
+/// An edge with an infinite triangle on each side, whose edges to and from infinity are still open.
+/// Returns the edges a -> b and b -> a.
+std::pair<EdgeId, EdgeId> Triangulation::add_flat_edge(VertexId a, VertexId b) {
+  const EdgeId there = edge(new_triangle());
+  const EdgeId back = edge(new_triangle());
+  set_edge(there, a);
+  set_edge(next(there), b);
+  set_edge(prev(there), infinite);
+  set_edge(back, b);
+  set_edge(next(back), a);
+  set_edge(prev(back), infinite);
+  link(there, back);
+  link(next(there), prev(back));
+  vertex_edges_[b.index()] = back;
+  return {there, back};
+}
+
+/// The first two vertices.
 void Triangulation::start(VertexId a, VertexId b) {
-  const TriangleId left = new_triangle();
-  const TriangleId right = new_triangle();
-  set_edge(edge(left, 0), a);
-  set_edge(edge(left, 1), b);
-  set_edge(edge(left, 2), infinite);
-  set_edge(edge(right, 0), b);
-  set_edge(edge(right, 1), a);
-  set_edge(edge(right, 2), infinite);
-  link(edge(left, 0), edge(right, 0));
-  link(edge(left, 1), edge(right, 2));
-  link(edge(left, 2), edge(right, 1));
-  vertex_edges_[a.index()] = edge(left, 0);
-  vertex_edges_[b.index()] = edge(right, 0);
-  vertex_edges_[infinite.index()] = edge(left, 2);
+  const auto [there, back] = add_flat_edge(a, b);
+  link(prev(there), next(back));
+  vertex_edges_[a.index()] = there;
+  vertex_edges_[infinite.index()] = prev(there);
 }
 
 /// While all vertices are in one line: one more beyond the end that `end` leaves to infinity.
 void Triangulation::extend(EdgeId end, VertexId v) {
-  const EdgeId back = twin(end);
-  const VertexId last = from(end);
-  const TriangleId left = new_triangle();
-  const TriangleId right = new_triangle();
-  set_edge(edge(left, 0), last);
-  set_edge(edge(left, 1), v);
-  set_edge(edge(left, 2), infinite);
-  set_edge(edge(right, 0), v);
-  set_edge(edge(right, 1), last);
-  set_edge(edge(right, 2), infinite);
-  link(edge(left, 0), edge(right, 0));
-  link(edge(left, 1), edge(right, 2));
-  link(edge(left, 2), end);
-  link(edge(right, 1), back);
-  vertex_edges_[v.index()] = edge(right, 0);
+  const EdgeId end_back = twin(end);
+  const auto [there, back] = add_flat_edge(from(end), v);
+  link(prev(there), end);
+  link(next(back), end_back);
 }
 
 /// Every triangle that a split makes has the new vertex at corner 2, and the edge that may need a

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "cdt/ids.h"
@@ -187,6 +188,7 @@ class Triangulation {
   // triangulation.cpp: vertices
   void insert_points(std::span<const Point> points);
   VertexId insert_near(Point point, EdgeId hint);
+  std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
   void start(VertexId a, VertexId b);
   void extend(EdgeId end_to_infinity, VertexId v);
   void split_triangle(TriangleId t, VertexId v);

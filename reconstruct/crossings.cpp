@@ -115,12 +115,7 @@ class Collapse {
   }
 
   [[nodiscard]] Vec3 place(std::uint32_t node) const {
-    if (node < lower_count_) return {lower_.points[node].x, lower_.points[node].y, lower_.z};
-    if (node < contour_count_) {
-      const cdt::Point p = upper_.points[node - lower_count_];
-      return {p.x, p.y, upper_.z};
-    }
-    return inner_[node - contour_count_].place;
+    return place_of(lower_, upper_, inner_, node);
   }
 
   [[nodiscard]] Corners places(const Nodes& nodes) const {

@@ -22,14 +22,6 @@ using cdt::SegmentId;
 using cdt::Triangulation;
 using cdt::VertexId;
 
-Vec3 place_of(const Region& lower, const Region& upper, std::span<const InnerVertex> inner,
-              std::uint32_t node) {
-  if (node < lower.points.size()) return {lower.points[node].x, lower.points[node].y, lower.z};
-  node -= static_cast<std::uint32_t>(lower.points.size());
-  if (node < upper.points.size()) return {upper.points[node].x, upper.points[node].y, upper.z};
-  return inner[node - upper.points.size()].place;
-}
-
 /// Makes the sheets and walls of a lifted slab.
 class Tiling {
  public:

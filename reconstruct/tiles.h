@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "reconstruct/lift.h"
@@ -25,6 +26,15 @@ struct TileSet {
   std::vector<Tile> tiles;
   bool is_linked = true;  ///< false: no valid tiles between the slices were found, both end here
 };
+
+/// Where a node of a slab's tiles is.
+[[nodiscard]] inline Vec3 place_of(const Region& lower, const Region& upper,
+                                   std::span<const InnerVertex> inner, std::uint32_t node) {
+  if (node < lower.points.size()) return {lower.points[node].x, lower.points[node].y, lower.z};
+  node -= static_cast<std::uint32_t>(lower.points.size());
+  if (node < upper.points.size()) return {upper.points[node].x, upper.points[node].y, upper.z};
+  return inner[node - upper.points.size()].place;
+}
 
 /// The surface between two neighbouring slices (design, section 3, steps 1 to 6): a pure function
 /// of the two regions. It touches the slice planes in the contours alone, each contour edge is an
