@@ -19,11 +19,17 @@ void report(Findings& findings, Fault fault, EdgeId e, const Words&... words) {
   findings.push_back({fault, e, SegmentId::none(), message.str()});
 }
 
+std::vector<EdgeId> edges_of(const Triangulation& mesh) {
+  std::vector<EdgeId> edges;
+  for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i)
+    if (mesh.is_triangle(TriangleId(i / 3))) edges.emplace_back(i);
+  return edges;
+}
+
 void check_topology(const Triangulation& mesh, Findings& findings) {
-  for (std::uint32_t i = 0; i < mesh.edge_count(); ++i) {
-    const EdgeId e(i);
+  for (const EdgeId e : edges_of(mesh)) {
     const EdgeId f = mesh.twin(e);
-    if (f.index() >= mesh.edge_count() || mesh.twin(f) != e) {
+    if (!mesh.is_triangle(Triangulation::triangle(f)) || mesh.twin(f) != e) {
       report(findings, Fault::topology, e, "the twin of ", e, " is ", f, ", not the reverse");
     } else if (mesh.from(f) != mesh.to(e) || mesh.to(f) != mesh.from(e)) {
       report(findings, Fault::topology, e, e, " and its twin join different vertices");
@@ -33,9 +39,10 @@ void check_topology(const Triangulation& mesh, Findings& findings) {
     }
   }
   if (mesh.vertex_count() < 2) return;
-  for (std::uint32_t v = 0; v <= mesh.vertex_count(); ++v) {
+  for (std::uint32_t v = 0; v < mesh.vertex_bound(); ++v) {
+    if (v > 0 && !mesh.is_vertex(VertexId(v))) continue;
     const EdgeId e = mesh.edge(VertexId(v));
-    if (e.index() >= mesh.edge_count() || mesh.from(e) != VertexId(v))
+    if (!mesh.is_triangle(Triangulation::triangle(e)) || mesh.from(e) != VertexId(v))
       report(findings, Fault::topology, e, "the edge of ", VertexId(v), " starts elsewhere");
   }
   if (mesh.triangle_count() != 2 * mesh.vertex_count() - 2)
@@ -44,15 +51,14 @@ void check_topology(const Triangulation& mesh, Findings& findings) {
 }
 
 void check_orientation(const Triangulation& mesh, Findings& findings) {
-  for (std::uint32_t i = 0; i < mesh.triangle_count(); ++i) {
+  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i) {
     const EdgeId e = Triangulation::edge(TriangleId(i));
-    if (mesh.is_infinite(TriangleId(i))) continue;
+    if (!mesh.is_triangle(TriangleId(i)) || mesh.is_infinite(TriangleId(i))) continue;
     if (orient(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), mesh.point(mesh.apex(e))) <= 0)
       report(findings, Fault::inverted, e, TriangleId(i), " is not counter-clockwise");
   }
   // The hull, clockwise: the finite edges of the infinite triangles.
-  for (std::uint32_t i = 0; i < mesh.edge_count(); ++i) {
-    const EdgeId e(i);
+  for (const EdgeId e : edges_of(mesh)) {
     if (mesh.apex(e) != Triangulation::infinite) continue;
     const EdgeId ahead = Triangulation::next(mesh.twin(Triangulation::next(e)));
     if (orient(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), mesh.point(mesh.to(ahead))) > 0)
@@ -61,8 +67,7 @@ void check_orientation(const Triangulation& mesh, Findings& findings) {
 }
 
 void check_delaunay(const Triangulation& mesh, Findings& findings) {
-  for (std::uint32_t i = 0; i < mesh.edge_count(); ++i) {
-    const EdgeId e(i);
+  for (const EdgeId e : edges_of(mesh)) {
     const EdgeId f = mesh.twin(e);
     if (f < e || mesh.is_constrained(e) || mesh.is_infinite(Triangulation::triangle(e)) ||
         mesh.is_infinite(Triangulation::triangle(f)))
@@ -74,8 +79,9 @@ void check_delaunay(const Triangulation& mesh, Findings& findings) {
 }
 
 void check_cover(const Triangulation& mesh, Findings& findings) {
-  for (std::uint32_t i = 0; i < mesh.segment_count(); ++i) {
+  for (std::uint32_t i = 0; i < mesh.segment_bound(); ++i) {
     const SegmentId s(i);
+    if (!mesh.is_segment(s)) continue;
     const Segment& segment = mesh.segment(s);
     if (segment.from == segment.to) continue;
     const auto pieces = mesh.pieces(s);

@@ -1,15 +1,28 @@
 // SPDX-License-Identifier: MIT
+#include <cmath>
+
 #include "cdt/predicates.h"
 #include "cdt/triangulation.h"
 
 namespace loft::cdt {
 
+/// The last place, unless the locator knows a vertex that is nearer.
+EdgeId Triangulation::hint_for(Point p) const {
+  const VertexId near = locator_.near(p);
+  if (near.is_none() || edge(near).is_none()) return last_;
+  const auto distance = [&](VertexId v) {
+    return std::abs(point(v).x - p.x) + std::abs(point(v).y - p.y);
+  };
+  const VertexId last = from(last_) == infinite ? to(last_) : from(last_);
+  return distance(last) <= distance(near) ? last_ : edge(near);
+}
+
 /// A stochastic visibility walk (Devillers, Pion, Teillaud, "Walking in a Triangulation", 2002):
 /// leave a triangle through an edge that has the point on its other side; of two such edges, now
 /// one, now the other, so that it ends in any triangulation.
 Location Triangulation::locate(Point p, EdgeId hint) const {
-  if (edges_.empty()) return {};
-  EdgeId e = hint.is_none() || hint.index() >= edges_.size() ? EdgeId(0) : hint;
+  if (triangle_count() == 0) return {};
+  EdgeId e = hint.is_none() || !is_triangle(triangle(hint)) ? last_ : hint;
   if (is_flat_) return locate_flat(p, e);
 
   if (is_infinite(triangle(e))) {

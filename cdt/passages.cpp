@@ -2,78 +2,109 @@
 #include "cdt/passages.h"
 
 #include <algorithm>
+#include <bit>
+#include <stdexcept>
 
 namespace loft::cdt {
 
-namespace {
-
-constexpr std::uint32_t free_slot = 0xffff'ffff;
-
-std::size_t hash_of(std::span<const Passage> members) {
-  std::uint64_t hash = 0x9e37'79b9'7f4a'7c15;
-  for (const Passage passage : members) {
-    const std::uint64_t bits = passage.segment().index() * 2ULL + (passage.is_upward() ? 1 : 0);
-    hash = (hash ^ bits) * 0xff51'afd7'ed55'8ccd;
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
-}  // namespace
-
 PassageSet PassageSets::with(PassageSet set, Passage added) {
   if (set.is_empty()) return PassageSet(added);
-  const auto old = view(set);
-  scratch_.assign(old.begin(), old.end());
-  scratch_.insert(std::upper_bound(scratch_.begin(), scratch_.end(), added), added);
-  return intern(scratch_);
+  if (!set.is_stored()) {
+    const std::uint32_t block = take_block(smallest_class);
+    set_number(block, 2);
+    words_[block + 1] = std::min(set.only_, added);
+    words_[block + 2] = std::max(set.only_, added);
+    return stored(block);
+  }
+  std::uint32_t block = set.block();
+  const std::uint32_t size = number(block);
+  if (class_for(size + 1) != class_for(size)) {
+    const std::uint32_t larger = take_block(class_for(size + 1));
+    std::copy_n(words_.begin() + block, size + 1, words_.begin() + larger);
+    give_block(block, class_for(size));
+    block = larger;
+  }
+  set_number(block, size + 1);
+  const auto grown = members(block);
+  const auto place = std::upper_bound(grown.begin(), grown.end() - 1, added);
+  std::copy_backward(place, grown.end() - 1, grown.end());
+  *place = added;
+  return stored(block);
+}
+
+PassageSet PassageSets::without(PassageSet set, Passage removed) {
+  if (!set.is_stored()) return {};
+  std::uint32_t block = set.block();
+  const auto old = members(block);
+  const auto place = std::lower_bound(old.begin(), old.end(), removed);
+  std::copy(place + 1, old.end(), place);
+  const auto size = static_cast<std::uint32_t>(old.size()) - 1;
+  if (size == 1) {
+    const Passage only = old[0];
+    give_block(block, smallest_class);
+    return PassageSet(only);
+  }
+  set_number(block, size);
+  if (class_for(size) != class_for(size + 1)) {
+    const std::uint32_t smaller = take_block(class_for(size));
+    std::copy_n(words_.begin() + block, size + 1, words_.begin() + smaller);
+    give_block(block, class_for(size + 1));
+    block = smaller;
+  }
+  return stored(block);
 }
 
 PassageSet PassageSets::reversed(PassageSet set) {
   if (set.is_empty()) return set;
-  const auto old = view(set);
-  scratch_.clear();
-  for (const Passage passage : old) scratch_.push_back(passage.reversed());
-  std::sort(scratch_.begin(), scratch_.end());
-  return intern(scratch_);
+  if (!set.is_stored()) return PassageSet(set.only_.reversed());
+  const auto turned = members(set.block());
+  for (Passage& passage : turned) passage = passage.reversed();
+  std::ranges::sort(turned);
+  return set;
+}
+
+PassageSet PassageSets::copy(PassageSet set) {
+  if (!set.is_stored()) return set;
+  const std::uint32_t size = number(set.block());
+  const std::uint32_t block = take_block(class_for(size));
+  std::copy_n(words_.begin() + set.block(), size + 1, words_.begin() + block);
+  return stored(block);
+}
+
+void PassageSets::release(PassageSet set) {
+  if (set.is_stored()) give_block(set.block(), class_for(number(set.block())));
 }
 
 std::span<const Passage> PassageSets::view(const PassageSet& set) const {
   if (set.is_empty()) return {};
-  if (set.is_stored()) return members(set.stored_index());
+  if (set.is_stored()) return {words_.data() + set.block() + 1, number(set.block())};
   return {&set.only_, 1};
 }
 
 void PassageSets::clear() {
-  members_.clear();
-  stored_.clear();
-  table_.clear();
+  words_.clear();
+  free_.fill(no_block);
 }
 
-PassageSet PassageSets::intern(std::span<const Passage> wanted) {
-  if (wanted.size() == 1) return PassageSet(wanted.front());
-  if (2 * (stored_.size() + 1) > table_.size()) grow_table();
-  const std::size_t mask = table_.size() - 1;
-  std::size_t slot = hash_of(wanted) & mask;
-  while (table_[slot] != free_slot && !std::ranges::equal(members(table_[slot]), wanted))
-    slot = (slot + 1) & mask;
-  if (table_[slot] == free_slot) {
-    table_[slot] = static_cast<std::uint32_t>(stored_.size());
-    stored_.push_back(
-        {static_cast<std::uint32_t>(members_.size()), static_cast<std::uint32_t>(wanted.size())});
-    members_.insert(members_.end(), wanted.begin(), wanted.end());
-  }
-  return PassageSet(Passage(SegmentId(PassageSet::first_stored_segment + table_[slot]), false));
+unsigned PassageSets::class_for(std::uint32_t size) {
+  return std::max(smallest_class, static_cast<unsigned>(std::bit_width(size)));
 }
 
-void PassageSets::grow_table() {
-  table_.assign(std::max<std::size_t>(16, 2 * table_.size()), free_slot);
-  const std::size_t mask = table_.size() - 1;
-  for (std::uint32_t i = 0; i < stored_.size(); ++i) {
-    std::size_t slot = hash_of(members(i)) & mask;
-    while (table_[slot] != free_slot) slot = (slot + 1) & mask;
-    table_[slot] = i;
+std::uint32_t PassageSets::take_block(unsigned size_class) {
+  if (const std::uint32_t block = free_[size_class]; block != no_block) {
+    free_[size_class] = number(block);
+    return block;
   }
+  const std::size_t block = words_.size();
+  const std::size_t end = block + (std::size_t{1} << size_class);
+  if (end >= PassageSet::first_stored_segment) throw std::length_error("too many overlaps");
+  words_.resize(end);
+  return static_cast<std::uint32_t>(block);
+}
+
+void PassageSets::give_block(std::uint32_t block, unsigned size_class) {
+  set_number(block, free_[size_class]);
+  free_[size_class] = block;
 }
 
 }  // namespace loft::cdt

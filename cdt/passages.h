@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <compare>
 #include <cstdint>
 #include <span>
@@ -14,6 +15,7 @@ namespace loft::cdt {
 /// lexicographically larger end.
 class Passage {
  public:
+  constexpr Passage() = default;
   constexpr Passage(SegmentId segment, bool upward)
       : bits_(segment.index() << 1 | static_cast<std::uint32_t>(upward)) {}
 
@@ -24,19 +26,17 @@ class Passage {
   friend constexpr auto operator<=>(Passage, Passage) = default;
 
  private:
-  std::uint32_t bits_;
+  std::uint32_t bits_ = 0xffff'ffff;
 };
 
-/// The passages along one edge, as a 32-bit handle: what KBT calls `crep`. Equal sets have equal
-/// handles. The two commonest, no passage and one, need no storage besides the handle.
+/// The passages along one edge, as a 32-bit handle: what KBT calls `crep`. The two commonest, no
+/// passage and one, need no storage besides the handle; others own a block of a PassageSets.
 class PassageSet {
  public:
   constexpr PassageSet() = default;
   constexpr explicit PassageSet(Passage only) : only_(only) {}
 
   [[nodiscard]] constexpr bool is_empty() const { return only_ == empty; }
-
-  friend constexpr bool operator==(PassageSet, PassageSet) = default;
 
  private:
   friend class PassageSets;
@@ -46,43 +46,61 @@ class PassageSet {
   [[nodiscard]] constexpr bool is_stored() const {
     return only_.segment().index() >= first_stored_segment && !is_empty();
   }
-  [[nodiscard]] constexpr std::uint32_t stored_index() const {
+  [[nodiscard]] constexpr std::uint32_t block() const {
     return only_.segment().index() - first_stored_segment;
   }
 
   Passage only_ = empty;
 };
 
-/// Storage of the sets that hold two passages or more. Each different one is kept once, however
-/// many edges have it. A set is a multiset: out and back along one edge are two passages.
+/// Storage of the sets that hold two passages or more: blocks of a power of two words, each with
+/// its size in front, those no longer needed kept for the next of their size. A set is a multiset:
+/// out and back along one edge are two passages. It is sorted.
 class PassageSets {
  public:
-  /// `set` and one more. Cost: O(size).
+  /// One more than this many segments cannot be told from stored sets.
+  static constexpr std::uint32_t most_segments = PassageSet::first_stored_segment;
+
+  PassageSets() { clear(); }
+
+  /// `set` and one more; `set` is used up. Cost: O(size).
   [[nodiscard]] PassageSet with(PassageSet set, Passage added);
-  /// Every passage the other way round.
+  /// `set` less one that it has; `set` is used up. Cost: O(size).
+  [[nodiscard]] PassageSet without(PassageSet set, Passage removed);
+  /// Every passage the other way round; `set` is used up.
   [[nodiscard]] PassageSet reversed(PassageSet set);
+  /// The same again, with a block of its own.
+  [[nodiscard]] PassageSet copy(PassageSet set);
+  /// Gives the block back.
+  void release(PassageSet set);
   /// The members, sorted. A set of one is viewed in place: `set` must outlive the view, and no
-  /// set may be added meanwhile.
+  /// set may be changed meanwhile.
   [[nodiscard]] std::span<const Passage> view(const PassageSet& set) const;
 
   void clear();
 
  private:
-  struct Stored {
-    std::uint32_t first;
-    std::uint32_t size;
-  };
+  static constexpr std::uint32_t no_block = 0x7fff'ffff;
+  static constexpr unsigned smallest_class = 2;  // blocks of four words
 
-  [[nodiscard]] PassageSet intern(std::span<const Passage> members);
-  [[nodiscard]] std::span<const Passage> members(std::uint32_t index) const {
-    return {members_.data() + stored_[index].first, stored_[index].size};
+  [[nodiscard]] static unsigned class_for(std::uint32_t size);
+  [[nodiscard]] std::uint32_t number(std::uint32_t word) const {
+    return words_[word].segment().index();
   }
-  void grow_table();
+  void set_number(std::uint32_t word, std::uint32_t value) {
+    words_[word] = Passage(SegmentId(value), false);
+  }
+  [[nodiscard]] std::uint32_t take_block(unsigned size_class);
+  void give_block(std::uint32_t block, unsigned size_class);
+  [[nodiscard]] static PassageSet stored(std::uint32_t block) {
+    return PassageSet(Passage(SegmentId(PassageSet::first_stored_segment + block), false));
+  }
+  [[nodiscard]] std::span<Passage> members(std::uint32_t block) {
+    return {words_.data() + block + 1, number(block)};
+  }
 
-  std::vector<Passage> members_;
-  std::vector<Stored> stored_;
-  std::vector<std::uint32_t> table_;  // open addressing: index into stored_, or free_slot
-  std::vector<Passage> scratch_;
+  std::vector<Passage> words_;
+  std::array<std::uint32_t, 32> free_{};  // the first free block of each class
 };
 
 }  // namespace loft::cdt

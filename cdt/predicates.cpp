@@ -206,6 +206,12 @@ int break_tie(Point a, Point b, Point c, Point d) {
 
 }  // namespace detail
 
+int compare_distances(Point p, Point a, Point b) {
+  const auto to_a = squared_length(exact(difference(a, p)));
+  const auto to_b = squared_length(exact(difference(b, p)));
+  return (to_a - to_b).sign();
+}
+
 bool crosses(Point a, Point b, Point c, Point d) {
   return orient(a, b, c) * orient(a, b, d) < 0 && orient(c, d, a) * orient(c, d, b) < 0;
 }

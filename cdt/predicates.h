@@ -32,6 +32,9 @@ namespace loft::cdt {
 /// 0 if two of the points are equal or all four are in one line.
 [[nodiscard]] int in_circle_perturbed(Point a, Point b, Point c, Point d);
 
+/// Which of a and b is nearer to p: -1 a, +1 b, 0 both are as near. Exact.
+[[nodiscard]] int compare_distances(Point p, Point a, Point b);
+
 /// Whether the open segments ab and cd cross in one point that is inside both (exact).
 [[nodiscard]] bool crosses(Point a, Point b, Point c, Point d);
 

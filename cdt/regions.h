@@ -8,16 +8,16 @@
 
 namespace loft::cdt {
 
-/// A value for every triangle, spread from the outside inwards: infinite triangles have `outside`,
+/// A value for every triangle (by its id), spread from the outside inwards: infinite triangles have `outside`,
 /// and a neighbour across edge e has cross(e, value), where e has the value's triangle on its left.
 /// Edges without passages are passed unchanged.
 /// Precondition: crossing edges leads to the same value on every way (true of anything that adds
 /// up passages of closed polylines). Cost: O(triangles).
 template <class Value, class Cross>
 [[nodiscard]] std::vector<Value> flood(const Triangulation& mesh, Value outside, Cross cross) {
-  std::vector<Value> values(mesh.triangle_count(), outside);
+  std::vector<Value> values(mesh.triangle_bound(), outside);
   if (mesh.triangle_count() == 0) return values;
-  std::vector<bool> is_reached(mesh.triangle_count());
+  std::vector<bool> is_reached(mesh.triangle_bound());
   std::vector<TriangleId> front{Triangulation::triangle(mesh.edge(Triangulation::infinite))};
   is_reached[front.front().index()] = true;
   while (!front.empty()) {

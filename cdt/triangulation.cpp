@@ -6,69 +6,141 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include "cdt/predicates.h"
 
 namespace loft::cdt {
 
+namespace {
+
+/// Blocks of segments come in sizes that grow by a quarter at most, so that those of removed
+/// constraints fit others.
+struct SizeClass {
+  std::uint32_t index;
+  std::uint32_t size;
+};
+
+/// The smallest that holds so many.
+SizeClass size_class(std::uint32_t count) {
+  if (count <= 8) return {count, count};
+  const auto shift = static_cast<std::uint32_t>(std::bit_width(count - 1)) - 3;
+  const std::uint32_t quarters = (count - 1) >> shift;  // 4 ... 7
+  return {8 + 4 * (shift - 1) + (quarters - 3), (quarters + 1) << shift};
+}
+
+constexpr std::uint32_t no_block = 0xffff'ffff;
+
+}  // namespace
+
+Triangulation::Triangulation(double epsilon) : epsilon_(epsilon) {
+  if (!(epsilon >= 0) || epsilon > largest_coordinate)
+    throw std::invalid_argument("epsilon must be a finite number that is not negative");
+  clear();
+}
+
 void Triangulation::clear() {
   edges_.clear();
-  points_.assign(
-      1, Point{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()});
+  edge_sets_.clear();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  points_.assign(1, Point{infinity, infinity});
   vertex_edges_.assign(1, EdgeId::none());
+  uses_.assign(1, unused);
   constraints_.clear();
+  without_length_.clear();
   segments_.clear();
   sets_.clear();
+  free_triangles_.clear();
+  free_vertices_.clear();
+  free_constraints_.clear();
+  free_segments_.assign(8 + 4 * 32, no_block);
+  dense_segments_ = no_block;
+  snaps_.clear();
+  locator_.clear();
+  changes_ = {};
   last_ = EdgeId::none();
+  only_ = VertexId::none();
   is_flat_ = true;
-  snaps_ = 0;
 }
 
 void Triangulation::reserve(std::size_t vertices) {
   points_.reserve(vertices + 1);
   vertex_edges_.reserve(vertices + 1);
+  uses_.reserve(vertices + 1);
   edges_.reserve(6 * vertices);
+  edge_sets_.reserve(6 * vertices);
   segments_.reserve(vertices);
 }
 
-ConstraintId Triangulation::insert(std::span<const Point> points, Ends ends) {
+// --- Edits ---
+
+void Triangulation::check_usable(std::span<const Point> points) {
   if (points.empty()) throw std::invalid_argument("a constraint needs a point");
   const auto is_usable = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const Point p : points)
     if (!is_usable(p.x) || !is_usable(p.y))
       throw std::invalid_argument("a constraint needs coordinates that are finite and below 1e75");
+}
 
-  const ConstraintId id(static_cast<std::uint32_t>(constraints_.size()));
-  const auto first_segment = static_cast<std::uint32_t>(segments_.size());
+void Triangulation::check_known(ConstraintId id) const {
+  if (!is_constraint(id))
+    throw std::invalid_argument("there is no constraint " +
+                                (id.is_none() ? "none" : std::to_string(id.index())));
+}
+
+void Triangulation::begin_edit() {
+  edited_.clear();
+  touched_.clear();
+}
+
+void Triangulation::end_edit() {
+  changes_.made.clear();
+  changes_.unmade.clear();
+  if (!is_recording_) return;
+  std::ranges::stable_sort(touched_, {}, &Touch::triangle);
+  for (std::size_t i = 0; i < touched_.size(); ++i) {
+    const Touch& first = touched_[i];
+    if (i > 0 && touched_[i - 1].triangle == first.triangle) continue;
+    if (first.was_there) changes_.unmade.push_back(first.triangle);
+    if (is_triangle(first.triangle)) changes_.made.push_back(first.triangle);
+  }
+}
+
+void Triangulation::record_changes(bool is_on) {
+  is_recording_ = is_on;
+  changes_ = {};
+}
+
+ConstraintId Triangulation::insert(std::span<const Point> points, Ends ends) {
+  check_usable(points);
+  begin_edit();
+  const std::size_t known_snaps = snaps_.size();
   insert_points(points);
-  for (std::size_t i = 1; i < points.size(); ++i)
-    segments_.push_back({inserted_[i - 1], inserted_[i], id});
-  if (ends == closed && points.size() > 1)
-    segments_.push_back({inserted_.back(), inserted_.front(), id});
-  const VertexId first = inserted_.front();
-  const auto end = static_cast<std::uint32_t>(segments_.size());
-  constraints_.push_back({first, first_segment, end - first_segment});
-  for (std::uint32_t s = first_segment; s < end; ++s) constrain(SegmentId(s));
+  const ConstraintId id = new_constraint();
+  describe(id, inserted_, ends);
+  lay_all(id);
+  if (known_snaps > 0) {
+    note_edited(id);
+    straighten(known_snaps);
+  }
+  end_edit();
   return id;
 }
 
-/// Coarse to fine: every 2^k-th point, then those half way between, each located from its
-/// neighbour. Along a curve, in the order of the curve, most flips would be undone by later ones.
-void Triangulation::insert_points(std::span<const Point> points) {
-  const std::size_t n = points.size();
-  inserted_.resize(n);
-  inserted_[0] = insert(points[0]);
-  for (std::size_t stride = std::bit_floor(n); stride > 0; stride /= 2)
-    for (std::size_t i = stride; i < n; i += 2 * stride)
-      inserted_[i] = insert_near(points[i], edge(inserted_[i - stride]));
+VertexId Triangulation::insert(Point point) {
+  check_usable({&point, 1});
+  begin_edit();
+  insert_points({&point, 1});
+  end_edit();
+  return inserted_[0];
 }
-
-VertexId Triangulation::insert(Point point) { return insert_near(point, last_); }
 
 std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
   if (!can_split(e, point)) return {};
-  const VertexId v = new_vertex(point);
-  split_edge(e, v);
+  begin_edit();
+  const VertexId v = split_at({Location::Kind::edge, e}, point);
+  ++uses_[v.index()];
+  end_edit();
   return v;
 }
 
@@ -78,10 +150,85 @@ std::optional<VertexId> Triangulation::split(TriangleId t, Point point) {
     const EdgeId e = edge(t, corner);
     if (orient(this->point(from(e)), this->point(to(e)), point) <= 0) return {};
   }
-  const VertexId v = new_vertex(point);
-  split_triangle(t, v);
+  begin_edit();
+  const VertexId v = split_at({Location::Kind::triangle, edge(t)}, point);
+  ++uses_[v.index()];
+  end_edit();
   return v;
 }
+
+ConstraintId Triangulation::new_constraint() {
+  if (free_constraints_.empty()) {
+    constraints_.emplace_back();
+    return ConstraintId(static_cast<std::uint32_t>(constraints_.size() - 1));
+  }
+  const ConstraintId id = free_constraints_.back();
+  free_constraints_.pop_back();
+  return id;
+}
+
+/// Notes the vertices of a constraint and its segments, which are yet to be laid.
+void Triangulation::describe(ConstraintId id, std::span<const VertexId> vertices, Ends ends) {
+  const auto n = static_cast<std::uint32_t>(vertices.size());
+  const std::uint32_t count = ends == closed && n > 1 ? n : n - 1;
+  const std::uint32_t first = count == 0 ? 0 : take_segments(count);
+  for (std::uint32_t i = 0; i < count; ++i)
+    segments_[first + i] = {vertices[i], vertices[i + 1 < n ? i + 1 : 0], id};
+  Constraint& constraint = constraints_[id.index()];
+  constraint.first_vertex = vertices[0];
+  constraint.first_segment = first;
+  constraint.segment_count = count & 0x7fff'ffff;
+  constraint.is_closed = ends == closed ? 1 : 0;
+  if (!is_without_length(id)) return;
+  if (without_length_.size() <= vertices[0].index()) without_length_.resize(points_.size());
+  constraint.next_here = without_length_[vertices[0].index()];
+  without_length_[vertices[0].index()] = id;
+}
+
+void Triangulation::lay_all(ConstraintId id) {
+  const Constraint constraint = constraints_[id.index()];
+  for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
+    lay(SegmentId(constraint.first_segment + i));
+}
+
+bool Triangulation::is_without_length(ConstraintId id) const {
+  return std::ranges::all_of(segments(id), [](const Segment& s) { return s.from == s.to; });
+}
+
+/// As long as nothing is removed blocks follow each other without gaps.
+std::uint32_t Triangulation::take_segments(std::uint32_t count) {
+  const bool is_dense = dense_segments_ == no_block;
+  const auto [index, rounded] = size_class(count);
+  std::uint32_t& head = free_segments_[index];
+  if (head != no_block) {
+    const std::uint32_t first = head;
+    head = segments_[first].from.index();
+    return first;
+  }
+  const std::size_t first = segments_.size();
+  const std::size_t end = first + (is_dense ? count : rounded);
+  if (end >= PassageSets::most_segments) throw std::length_error("too many segments");
+  segments_.resize(end);
+  return static_cast<std::uint32_t>(first);
+}
+
+void Triangulation::give_segments(std::uint32_t first, std::uint32_t count) {
+  if (dense_segments_ == no_block) dense_segments_ = static_cast<std::uint32_t>(segments_.size());
+  auto [index, size] = size_class(count);
+  if (first < dense_segments_ && size > count) --index;  // the largest class that fits in
+  segments_[first].from = VertexId(free_segments_[index]);
+  free_segments_[index] = first;
+}
+
+void Triangulation::free_segments(ConstraintId id) {
+  const Constraint& constraint = constraints_[id.index()];
+  if (constraint.segment_count == 0) return;
+  for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
+    segments_[constraint.first_segment + i] = {};
+  give_segments(constraint.first_segment, constraint.segment_count);
+}
+
+// --- Looking things up ---
 
 std::optional<EdgeId> Triangulation::find_edge(VertexId a, VertexId b) const {
   const EdgeId first_at_a = edge(a);
@@ -105,6 +252,12 @@ std::span<const Segment> Triangulation::segments(ConstraintId c) const {
 
 SegmentId Triangulation::first_segment(ConstraintId c) const {
   return SegmentId(constraints_[c.index()].first_segment);
+}
+
+std::vector<Point> Triangulation::points(ConstraintId c) const {
+  std::vector<Point> points;
+  for_each_point(c, [&](VertexId v) { points.push_back(point(v)); });
+  return points;
 }
 
 /// Hierholzer's way to find a trail: rounding may have led the segment in loops.
@@ -146,250 +299,57 @@ std::vector<EdgeId> Triangulation::pieces(SegmentId s) const {
   return found;
 }
 
-TriangleId Triangulation::new_triangle() {
-  const TriangleId t(static_cast<std::uint32_t>(triangle_count()));
-  edges_.resize(edges_.size() + 3);
-  return t;
-}
-
-VertexId Triangulation::new_vertex(Point point) {
-  const VertexId v(static_cast<std::uint32_t>(points_.size()));
-  points_.push_back(point);
-  vertex_edges_.emplace_back();
-  return v;
-}
-
-void Triangulation::link(EdgeId a, EdgeId b, PassageSet set) {
-  edges_[a.index()].twin = b;
-  edges_[b.index()].twin = a;
-  edges_[a.index()].set = set;
-  edges_[b.index()].set = set;
-}
-
-VertexId Triangulation::insert_near(Point point, EdgeId hint) {
-  const Location place = locate(point, hint);
-  VertexId v;
-  switch (place.kind) {
-    case Location::Kind::vertex:
-      last_ = place.edge;
-      return from(place.edge);
-    case Location::Kind::edge:
-      v = new_vertex(point);
-      split_edge(place.edge, v);
-      break;
-    case Location::Kind::triangle:
-      v = new_vertex(point);
-      split_triangle(triangle(place.edge), v);
-      break;
-    case Location::Kind::outside:
-      v = new_vertex(point);
-      if (to(place.edge) == infinite) {
-        extend(place.edge, v);
-      } else {
-        is_flat_ = false;
-        split_triangle(triangle(place.edge), v);
-      }
-      break;
-    case Location::Kind::nowhere:
-      if (vertex_count() == 1 && points_.back() == point) return VertexId(1);
-      v = new_vertex(point);
-      if (vertex_count() == 2) start(VertexId(1), v);
-      break;
+std::vector<EdgeId> Triangulation::pieces(ConstraintId c) const {
+  std::vector<EdgeId> found;
+  const SegmentId first = first_segment(c);
+  for (std::uint32_t i = 0; i < segments(c).size(); ++i) {
+    const auto more = pieces(SegmentId(first.index() + i));
+    found.insert(found.end(), more.begin(), more.end());
   }
-  last_ = edge(v);
-  return v;
+  return found;
 }
 
-/// An edge with an infinite triangle on each side, whose edges to and from infinity are still open.
-/// Returns the edges a -> b and b -> a.
-std::pair<EdgeId, EdgeId> Triangulation::add_flat_edge(VertexId a, VertexId b) {
-  const EdgeId there = edge(new_triangle());
-  const EdgeId back = edge(new_triangle());
-  set_edge(there, a);
-  set_edge(next(there), b);
-  set_edge(prev(there), infinite);
-  set_edge(back, b);
-  set_edge(next(back), a);
-  set_edge(prev(back), infinite);
-  link(there, back);
-  link(next(there), prev(back));
-  vertex_edges_[b.index()] = back;
-  return {there, back};
+namespace {
+
+void keep_each_once(std::vector<ConstraintId>& ids) {
+  std::ranges::sort(ids);
+  const auto repeated = std::ranges::unique(ids);
+  ids.erase(repeated.begin(), repeated.end());
 }
 
-/// The first two vertices.
-void Triangulation::start(VertexId a, VertexId b) {
-  const auto [there, back] = add_flat_edge(a, b);
-  link(prev(there), next(back));
-  vertex_edges_[a.index()] = there;
-  vertex_edges_[infinite.index()] = prev(there);
+}  // namespace
+
+std::vector<ConstraintId> Triangulation::constraints(EdgeId e) const {
+  std::vector<ConstraintId> found;
+  for (const Passage passage : passages(e)) found.push_back(segment(passage.segment()).constraint);
+  keep_each_once(found);
+  return found;
 }
 
-/// While all vertices are in one line: one more beyond the end that `end` leaves to infinity.
-void Triangulation::extend(EdgeId end, VertexId v) {
-  const EdgeId end_back = twin(end);
-  const auto [there, back] = add_flat_edge(from(end), v);
-  link(prev(there), end);
-  link(next(back), end_back);
-}
-
-/// Every triangle that a split makes has the new vertex at corner 2, and the edge that may need a
-/// flip at corner 0.
-void Triangulation::split_triangle(TriangleId t, VertexId v) {
-  const EdgeId old[3] = {edge(t, 0), edge(t, 1), edge(t, 2)};
-  const OrientedEdge sides[3] = {edges_[old[0].index()], edges_[old[1].index()],
-                                 edges_[old[2].index()]};
-  const TriangleId parts[3] = {t, new_triangle(), new_triangle()};
-  for (unsigned i = 0; i < 3; ++i) {
-    set_edge(edge(parts[i], 0), sides[i].from);
-    set_edge(edge(parts[i], 1), sides[(i + 1) % 3].from);
-    set_edge(edge(parts[i], 2), v);
-    link(edge(parts[i], 0), sides[i].twin, sides[i].set);
-    vertex_edges_[sides[i].from.index()] = edge(parts[i], 0);
-    suspects_.push_back(edge(parts[i], 0));
+std::vector<ConstraintId> Triangulation::constraints(VertexId v) const {
+  std::vector<ConstraintId> found;
+  if (v.index() < without_length_.size())
+    for (ConstraintId c = without_length_[v.index()]; !c.is_none();
+         c = constraints_[c.index()].next_here)
+      found.push_back(c);
+  if (const EdgeId first = edge(v); !first.is_none()) {
+    EdgeId e = first;
+    do {
+      for (const Passage passage : passages(e))
+        found.push_back(segment(passage.segment()).constraint);
+      e = rotated(e);
+    } while (e != first);
   }
-  for (unsigned i = 0; i < 3; ++i) link(edge(parts[i], 1), edge(parts[(i + 1) % 3], 2));
-  vertex_edges_[v.index()] = edge(t, 2);
-  fan_out(v);
+  keep_each_once(found);
+  return found;
 }
 
-void Triangulation::split_edge(EdgeId e, VertexId v) {
-  const EdgeId f = twin(e);
-  const VertexId a = from(e);
-  const VertexId b = from(f);
-  const VertexId c = apex(e);
-  const VertexId d = apex(f);
-  const EdgeId old[4] = {prev(e), next(e), prev(f), next(f)};
-  OrientedEdge sides[4];
-  for (unsigned i = 0; i < 4; ++i) sides[i] = edges_[old[i].index()];
-  const PassageSet set = edges_[e.index()].set;
-  const bool was_upward = !set.is_empty() && is_upward(e);
-
-  // Around v, clockwise: (c, a, v), (b, c, v), (d, b, v), (a, d, v).
-  const VertexId starts[4] = {c, b, d, a};
-  const VertexId ends[4] = {a, c, b, d};
-  const TriangleId parts[4] = {triangle(e), new_triangle(), triangle(f), new_triangle()};
-  for (unsigned i = 0; i < 4; ++i) {
-    set_edge(edge(parts[i], 0), starts[i]);
-    set_edge(edge(parts[i], 1), ends[i]);
-    set_edge(edge(parts[i], 2), v);
-  }
-  for (unsigned i = 0; i < 4; ++i) {
-    // At the end of a line of vertices the two infinite triangles are neighbours twice.
-    for (unsigned j = 0; is_flat_ && j < 4; ++j)
-      if (sides[i].twin == old[j]) sides[i].twin = edge(parts[j], 0);
-    link(edge(parts[i], 0), sides[i].twin, sides[i].set);
-    vertex_edges_[starts[i].index()] = edge(parts[i], 0);
-    suspects_.push_back(edge(parts[i], 0));
-  }
-  // A rounded point may lie beyond the ends in the lexicographic order: turn the passages then.
-  const auto half = [&](VertexId low, VertexId high) {
-    const bool upward = !set.is_empty() && point(low) < point(high);
-    return upward == was_upward ? set : sets_.reversed(set);
-  };
-  link(edge(parts[0], 2), edge(parts[1], 1));              // v-c
-  link(edge(parts[1], 2), edge(parts[2], 1), half(v, b));  // v-b
-  link(edge(parts[2], 2), edge(parts[3], 1));              // v-d
-  link(edge(parts[3], 2), edge(parts[0], 1), half(a, v));  // v-a
-  vertex_edges_[v.index()] = edge(parts[0], 2);
-  fan_out(v);
-}
-
-/// Flips edges opposite to the new vertex v, listed in suspects_, until they are Delaunay
-/// (Lawson). Each is at corner 0 of its triangle, v at corner 2; flips keep it so.
-void Triangulation::fan_out(VertexId v) {
-  while (!suspects_.empty()) {
-    const EdgeId e = suspects_.back();
-    suspects_.pop_back();
-    if (is_constrained(e)) continue;
-    const EdgeId f = twin(e);
-    const VertexId a = from(e);
-    const VertexId b = from(f);
-    const VertexId d = apex(f);
-    if (!should_flip(a, b, v, d)) continue;
-
-    const OrientedEdge ad = edges_[next(f).index()];
-    const OrientedEdge db = edges_[prev(f).index()];
-    const OrientedEdge bv = edges_[next(e).index()];
-    const TriangleId t = triangle(e);
-    const TriangleId u = triangle(f);
-    set_edge(edge(t, 1), d);
-    link(edge(t, 0), ad.twin, ad.set);
-    set_edge(edge(u, 0), d);
-    set_edge(edge(u, 1), b);
-    set_edge(edge(u, 2), v);
-    link(edge(u, 0), db.twin, db.set);
-    link(edge(u, 1), bv.twin, bv.set);
-    link(edge(t, 1), edge(u, 2));
-    vertex_edges_[a.index()] = edge(t, 0);
-    vertex_edges_[b.index()] = edge(u, 1);
-    vertex_edges_[d.index()] = edge(u, 0);
-    suspects_.push_back(edge(t, 0));
-    suspects_.push_back(edge(u, 0));
-  }
-}
-
-bool Triangulation::can_split(EdgeId e, Point p) const {
-  const EdgeId around[4] = {next(e), prev(e), next(twin(e)), prev(twin(e))};
-  for (const EdgeId side : around) {
-    if (from(side) == infinite || to(side) == infinite) continue;
-    if (orient(point(from(side)), point(to(side)), p) <= 0) return false;
-  }
-  return from(e) != infinite && to(e) != infinite;
-}
-
-/// Whether the edge ab between the triangles (a, b, c) and (b, a, d) is not Delaunay. An infinite
-/// corner stands for a point so far away that circles through it are straight lines.
-bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const {
-  if (c == infinite || d == infinite) return false;
-  if (a == infinite) return orient(point(d), point(b), point(c)) > 0;
-  if (b == infinite) return orient(point(c), point(a), point(d)) > 0;
-  return in_circle_perturbed(point(a), point(b), point(c), point(d)) > 0;
-}
-
-/// Turns the diagonal of the two triangles beside e, which must make a convex quadrilateral.
-void Triangulation::flip(EdgeId e) {
-  const EdgeId f = twin(e);
-  const VertexId a = from(e);
-  const VertexId b = from(f);
-  const VertexId c = apex(e);
-  const VertexId d = apex(f);
-  const OrientedEdge bc = edges_[next(e).index()];
-  const OrientedEdge ad = edges_[next(f).index()];
-  const EdgeId dc = next(e);
-  const EdgeId cd = next(f);
-  link(e, ad.twin, ad.set);  // a -> d
-  set_edge(dc, d);
-  link(f, bc.twin, bc.set);  // b -> c
-  set_edge(cd, c);
-  link(dc, cd);
-  vertex_edges_[a.index()] = e;
-  vertex_edges_[b.index()] = f;
-  vertex_edges_[c.index()] = cd;
-  vertex_edges_[d.index()] = dc;
-}
-
-/// Flips until every edge that suspects_ leads to is constrained Delaunay.
-void Triangulation::restore_delaunay() {
-  while (!suspects_.empty()) {
-    const EdgeId e = suspects_.back();
-    suspects_.pop_back();
-    const EdgeId f = twin(e);
-    if (is_constrained(e) || !should_flip(from(e), from(f), apex(e), apex(f))) continue;
-    flip(e);
-    for (const EdgeId side : {e, f, prev(e), prev(f)}) suspects_.push_back(side);
-  }
-}
-
-/// Puts the edges at a vertex and those around it on the list of suspects.
-void Triangulation::push_star(VertexId v) {
-  const EdgeId first = edge(v);
-  EdgeId e = first;
-  do {
-    suspects_.push_back(e);
-    suspects_.push_back(next(e));
-    e = rotated(e);
-  } while (e != first);
+/// Points of constraints at a vertex: what remains of its uses are insert(Point)s and split()s.
+std::size_t Triangulation::count_points_at(VertexId v) const {
+  std::size_t count = 0;
+  for (const ConstraintId c : constraints(v))
+    for_each_point(c, [&](VertexId w) { count += w == v ? 1U : 0U; });
+  return count;
 }
 
 }  // namespace loft::cdt

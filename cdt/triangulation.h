@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "cdt/changes.h"
 #include "cdt/ids.h"
+#include "cdt/locator.h"
 #include "cdt/passages.h"
 #include "cdt/point.h"
 
@@ -39,22 +41,47 @@ struct Segment {
   ConstraintId constraint;
 };
 
-/// A constrained Delaunay triangulation (CDT) of the plane that grows by points and polylines,
-/// after Kallmann, Bieri and Thalmann, "Fully Dynamic Constrained Delaunay Triangulations" (2003).
+/// Points to insert as one constraint. A view: the points belong to someone else.
+struct Polyline {
+  std::span<const Point> points;
+  Ends ends = open;
+};
+
+/// Where rounding decides: a segment that goes through a vertex which is not on it, or that misses
+/// one which is, because three lines (or two lines and a point) are within rounding of one place.
+struct Snap {
+  SegmentId segment;
+  Point place;
+};
+
+/// A fully dynamic constrained Delaunay triangulation (CDT) of the plane after Kallmann, Bieri and
+/// Thalmann, "Fully Dynamic Constrained Delaunay Triangulations" (2003), here KBT: points and
+/// polylines are inserted, moved and removed at any time and go by their ids.
 ///
 /// Constraints may cross, overlap and repeat one another and themselves: crossings become
-/// vertices, overlaps share edges, and every edge knows the segments that run along it.
+/// vertices, overlaps share edges, and every edge knows the segments that run along it. What is
+/// removed leaves no trace: vertices that nothing needs any more go with it, and edges that were
+/// split by them are whole again.
 ///
 /// Guarantees. All decisions are exact. Every triangle is counter-clockwise; every edge without
 /// passage is constrained Delaunay, ties broken by the coordinates alone (in_circle_perturbed).
-/// Crossing points are computed from the two segments as inserted and correctly rounded. Where
-/// rounding would turn a triangle over, the later segment goes through a vertex nearby instead:
-/// snaps() counts that. It never fails and never hangs.
+/// Crossing points are computed from the two segments as inserted and correctly rounded. So the
+/// triangulation is a function of the set of constraints, whatever the order in which they came,
+/// moved and went. Where rounding would turn a triangle over, a segment goes through a vertex
+/// nearby instead: then the result is as valid, but may depend on that order; snaps() lists these
+/// places. It never fails and never hangs.
+///
+/// Epsilon. With an epsilon above zero, a point closer than that to a vertex is that vertex, one
+/// closer than that to a segment is on it, and a segment passing a vertex closer than that goes
+/// through it. What is merged depends on the order of insertion, as closeness is not transitive.
 ///
 /// Structure. Triangles beyond the convex hull share one infinite vertex, so that every edge has a
 /// triangle on each side and no bounding box is needed. An oriented edge is 3 * triangle + corner;
-/// all adjacency is arithmetic on one flat array. Ids stay valid as long as nothing is inserted;
-/// vertex, segment and constraint ids stay valid always.
+/// all adjacency is arithmetic on one flat array. Ids of vertices, segments and constraints stay
+/// valid until what they name is removed, those of edges and triangles until the next edit. Ids of
+/// removed things are used again: loops over ids go up to a bound and ask what is there.
+///
+/// Not for several threads at once, except for reading. Copies are independent.
 class Triangulation {
  public:
   /// The vertex at infinity.
@@ -64,18 +91,38 @@ class Triangulation {
   static constexpr double largest_coordinate = 1e75;
 
   Triangulation() { clear(); }
+  /// Precondition: epsilon is finite and not negative; std::invalid_argument otherwise.
+  explicit Triangulation(double epsilon);
 
-  /// Forgets everything, keeps the memory.
+  [[nodiscard]] double epsilon() const { return epsilon_; }
+
+  /// Forgets everything but epsilon, keeps the memory.
   void clear();
   /// Makes room for that many vertices.
   void reserve(std::size_t vertices);
 
-  /// Inserts a polyline, or a single point. Cost: location from the last place, then in practice
-  /// constant a vertex and a crossing. Precondition: there is a point, coordinates are at most
-  /// largest_coordinate. Throws std::invalid_argument otherwise, and then changes nothing.
+  // Edits. Each throws std::invalid_argument, and then changes nothing, if there is no point, if a
+  // coordinate is not finite or beyond largest_coordinate, or if an id names nothing.
+
+  /// Inserts a polyline, or a single point. Cost: to locate the first point, O(1) expected where
+  /// points are spread evenly; then in practice constant a point and a crossing.
   ConstraintId insert(std::span<const Point> points, Ends ends);
+  /// Inserts many at once: the same as one after the other, but faster, as all points come first,
+  /// in rounds and along a space-filling curve (Amenta, Choi, Rote 2003). Returns their ids.
+  std::vector<ConstraintId> insert(std::span<const Polyline> polylines);
+  /// Removes a constraint (KBT, section 5): vertices that nothing else needs go, edges that they
+  /// split become one. Cost: in practice constant a vertex and a crossing.
+  void remove(ConstraintId id);
+  /// Gives a constraint other points, as many as it likes. Vertices whose triangles stay
+  /// counter-clockwise on the way are moved in place and flips restore the triangulation; others
+  /// are removed and inserted. The same as remove and insert, but the id stays.
+  void move(ConstraintId id, std::span<const Point> points);
+  /// Moves all points of a constraint by the same vector.
+  void translate(ConstraintId id, Point by);
   /// Inserts a vertex that belongs to no constraint, or finds the one that is there.
   VertexId insert(Point point);
+  /// Undoes one insert(Point) or split(): the vertex goes if nothing else needs it.
+  void remove(VertexId v);
   /// Splits an edge at a point on it or so close to it that the four new triangles are
   /// counter-clockwise, whatever else is between; nothing happens if they are not.
   /// The two halves keep the edge's passages; edges at the new vertex are not flipped away.
@@ -83,7 +130,12 @@ class Triangulation {
   /// Splits a triangle at a point strictly inside; nothing happens if it is not.
   std::optional<VertexId> split(TriangleId triangle, Point point);
 
-  [[nodiscard]] Location locate(Point point) const { return locate(point, last_); }
+  /// From now on (or no longer) each edit notes the triangles that it makes and unmakes.
+  void record_changes(bool is_on);
+  /// Those of the last edit; empty if they were not recorded.
+  [[nodiscard]] const Changes& changes() const { return changes_; }
+
+  [[nodiscard]] Location locate(Point point) const { return locate(point, hint_for(point)); }
   /// Walks from the triangle of `hint`. Cost: in the number of triangles between.
   [[nodiscard]] Location locate(Point point, EdgeId hint) const;
 
@@ -98,7 +150,7 @@ class Triangulation {
   [[nodiscard]] static constexpr EdgeId edge(TriangleId t, unsigned corner = 0) {
     return EdgeId(3 * t.index() + corner);
   }
-  [[nodiscard]] EdgeId twin(EdgeId e) const { return edges_[e.index()].twin; }
+  [[nodiscard]] EdgeId twin(EdgeId e) const { return edges_[e.index()].twin(); }
   [[nodiscard]] VertexId from(EdgeId e) const { return edges_[e.index()].from; }
   [[nodiscard]] VertexId to(EdgeId e) const { return from(next(e)); }
   /// The corner opposite to an edge, in the triangle on its left.
@@ -114,80 +166,184 @@ class Triangulation {
            edges_[e + 2].from == infinite;
   }
 
-  /// Vertices have the ids 1 ... vertex_count(); 0 is the infinite one.
-  [[nodiscard]] std::size_t vertex_count() const { return points_.size() - 1; }
-  /// Triangles, infinite ones included, have the ids 0 ... triangle_count() - 1.
-  [[nodiscard]] std::size_t triangle_count() const { return edges_.size() / 3; }
-  [[nodiscard]] std::size_t edge_count() const { return edges_.size(); }
+  /// Vertices there are, without the infinite one.
+  [[nodiscard]] std::size_t vertex_count() const {
+    return points_.size() - 1 - free_vertices_.size();
+  }
+  /// Their ids are above 0, which is the infinite one, and below this.
+  [[nodiscard]] std::size_t vertex_bound() const { return points_.size(); }
+  [[nodiscard]] bool is_vertex(VertexId v) const {
+    return v != infinite && v.index() < uses_.size() && uses_[v.index()] != unused;
+  }
+  /// Triangles there are, infinite ones included.
+  [[nodiscard]] std::size_t triangle_count() const {
+    return edges_.size() / 3 - free_triangles_.size();
+  }
+  [[nodiscard]] std::size_t triangle_bound() const { return edges_.size() / 3; }
+  [[nodiscard]] bool is_triangle(TriangleId t) const {
+    return t.index() < triangle_bound() && !edges_[3 * t.index()].from.is_none();
+  }
+  [[nodiscard]] std::size_t edge_bound() const { return edges_.size(); }
 
   /// The edge between two vertices, if there is one. Cost: the smaller degree.
   [[nodiscard]] std::optional<EdgeId> find_edge(VertexId a, VertexId b) const;
 
   // Constraints.
-  [[nodiscard]] bool is_constrained(EdgeId e) const { return !edges_[e.index()].set.is_empty(); }
-  /// The segments along an edge, with direction. Valid until the next insertion.
+  [[nodiscard]] bool is_constrained(EdgeId e) const { return edges_[e.index()].is_constrained(); }
+  /// The segments along an edge, with direction. Valid until the next edit.
   [[nodiscard]] std::span<const Passage> passages(EdgeId e) const {
-    return sets_.view(edges_[e.index()].set);
+    if (!is_constrained(e)) return {};
+    return sets_.view(edge_sets_[e.index()]);
   }
   /// Whether a passage of this edge runs from from(e) to to(e).
   [[nodiscard]] bool is_forward(EdgeId e, Passage passage) const {
     return passage.is_upward() == is_upward(e);
   }
-  [[nodiscard]] std::size_t constraint_count() const { return constraints_.size(); }
-  [[nodiscard]] std::size_t segment_count() const { return segments_.size(); }
+  [[nodiscard]] std::size_t constraint_count() const {
+    return constraints_.size() - free_constraints_.size();
+  }
+  [[nodiscard]] std::size_t constraint_bound() const { return constraints_.size(); }
+  [[nodiscard]] bool is_constraint(ConstraintId c) const {
+    return c.index() < constraints_.size() && !constraints_[c.index()].first_vertex.is_none();
+  }
+  [[nodiscard]] std::size_t segment_bound() const { return segments_.size(); }
+  [[nodiscard]] bool is_segment(SegmentId s) const {
+    return s.index() < segments_.size() && !segments_[s.index()].constraint.is_none();
+  }
   [[nodiscard]] const Segment& segment(SegmentId s) const { return segments_[s.index()]; }
   /// The segments of a constraint, in order: segment i starts at the vertex of point i.
   [[nodiscard]] std::span<const Segment> segments(ConstraintId c) const;
   [[nodiscard]] SegmentId first_segment(ConstraintId c) const;
+  [[nodiscard]] Ends ends(ConstraintId c) const {
+    return constraints_[c.index()].is_closed ? closed : open;
+  }
+  /// The places of a constraint's points: as given, but for those that epsilon merged.
+  [[nodiscard]] std::vector<Point> points(ConstraintId c) const;
   /// The edges that make up a segment, in order and direction.
   [[nodiscard]] std::vector<EdgeId> pieces(SegmentId s) const;
+  /// The edges that make up a constraint, in order and direction.
+  [[nodiscard]] std::vector<EdgeId> pieces(ConstraintId c) const;
+  /// The constraints along an edge: sorted, each once.
+  [[nodiscard]] std::vector<ConstraintId> constraints(EdgeId e) const;
+  /// The constraints that have a point at a vertex or pass through it: sorted, each once.
+  /// Cost: the degree; in a mesh with point constraints, their number.
+  [[nodiscard]] std::vector<ConstraintId> constraints(VertexId v) const;
   /// The vertex where a constraint starts.
   [[nodiscard]] VertexId first_vertex(ConstraintId c) const {
     return constraints_[c.index()].first_vertex;
   }
-  /// How often rounding led a segment through a vertex that is not on it.
-  [[nodiscard]] std::size_t snaps() const { return snaps_; }
+  /// The places where rounding decides, as things are now.
+  [[nodiscard]] std::span<const Snap> snaps() const { return snaps_; }
 
  private:
+  /// `bits`: the twin, and in the highest bit whether there are passages.
   struct OrientedEdge {
+    static constexpr std::uint32_t constrained = 0x8000'0000;
     VertexId from;
-    EdgeId twin;
-    PassageSet set;  // the same on both sides
+    std::uint32_t bits;
+
+    [[nodiscard]] EdgeId twin() const { return EdgeId(bits & ~constrained); }
+    [[nodiscard]] bool is_constrained() const { return (bits & constrained) != 0; }
+  };
+  /// What is beyond a side of a triangle: its twin, and the passages that both share.
+  struct Side {
+    std::uint32_t bits;
+    PassageSet set;
   };
   struct Constraint {
     VertexId first_vertex;
     std::uint32_t first_segment;
-    std::uint32_t segment_count;
+    std::uint32_t segment_count : 31;
+    std::uint32_t is_closed : 1;
+    ConstraintId next_here;  // of those without length at first_vertex
   };
   /// What a walk along a straight line came to first.
   struct Obstacle {
-    enum class Kind { edge_along, constrained_edge, vertex } kind;
+    enum class Kind { edge_along, constrained_edge, vertex, confusion } kind;
     EdgeId edge;      // edge_along, constrained_edge
     VertexId vertex;  // vertex: reached over the edges in crossed_
   };
-  /// A side of the cavity that a new segment cuts: the edge from chain vertex i to i + 1.
+  /// A side of a cavity: the edge from chain vertex i to i + 1.
   struct Gap {
-    EdgeId outer;        // beyond it, or none where the cavity is on both sides
-    std::uint32_t mate;  // then: the gap on the other side
-    EdgeId inner;        // then: the new edge here, once it is made
-    PassageSet set;
+    EdgeId inside;            // the edge here in the triangles that were taken out
+    Side beyond{};            // what they were joined to
+    bool has_mate = false;    // the cavity is on both sides of this edge,
+    std::uint32_t mate = 0;   // at this gap, too
+    EdgeId inner{};           // then: the new edge here, once it is made
   };
   struct Cavity {
     std::vector<VertexId> chain;
     std::vector<Gap> gaps;
     bool has_mates = false;
   };
+  /// One corner of the hole that a vertex leaves, and how soon its ear is to be cut.
+  struct Corner {
+    VertexId vertex;
+    Side side;  // to the next corner
+    std::uint32_t next;
+    std::uint32_t prev;
+    double urgency;
+  };
+  struct Ear {
+    double urgency;
+    std::uint32_t corner;
+    friend auto operator<=>(const Ear&, const Ear&) = default;
+  };
+  struct Touch {
+    TriangleId triangle;
+    bool was_there;
+  };
+
+  static constexpr std::uint32_t unused = 0xffff'ffff;
 
   [[nodiscard]] bool is_upward(EdgeId e) const { return point(from(e)) < point(to(e)); }
   [[nodiscard]] TriangleId new_triangle();
   [[nodiscard]] VertexId new_vertex(Point point);
-  void set_edge(EdgeId e, VertexId from) { edges_[e.index()].from = from; }
-  void link(EdgeId a, EdgeId b, PassageSet set);
-  void link(EdgeId a, EdgeId b) { link(a, b, {}); }
+  void free_triangle(TriangleId t);
+  void free_vertex(VertexId v);
+  void touch(TriangleId t) {
+    if (is_recording_) touched_.push_back({t, true});
+  }
+  void set_from(EdgeId e, VertexId from) { edges_[e.index()].from = from; }
+  [[nodiscard]] Side side(EdgeId e) const {
+    const std::uint32_t bits = edges_[e.index()].bits;
+    return {bits, (bits & OrientedEdge::constrained) != 0 ? edge_sets_[e.index()] : PassageSet()};
+  }
+  void attach(EdgeId e, Side side);
+  void join(EdgeId a, EdgeId b);
+  void join(EdgeId a, EdgeId b, PassageSet set);
 
-  // triangulation.cpp: vertices
+  // triangulation.cpp: edits
+  static void check_usable(std::span<const Point> points);
+  void check_known(ConstraintId id) const;
+  void begin_edit();
+  void end_edit();
+  [[nodiscard]] ConstraintId new_constraint();
+  void describe(ConstraintId id, std::span<const VertexId> vertices, Ends ends);
+  void lay_all(ConstraintId id);
+  [[nodiscard]] std::uint32_t take_segments(std::uint32_t count);
+  void give_segments(std::uint32_t first, std::uint32_t count);
+  void free_segments(ConstraintId id);
+  [[nodiscard]] bool is_without_length(ConstraintId id) const;
+  /// Calls visit(vertex) for each point, in order.
+  template <class Visit>
+  void for_each_point(ConstraintId id, Visit visit) const {
+    const Constraint& constraint = constraints_[id.index()];
+    if (constraint.segment_count == 0) visit(constraint.first_vertex);
+    const auto all = segments(id);
+    for (const Segment& s : all) visit(s.from);
+    if (!all.empty() && !constraint.is_closed) visit(all.back().to);
+  }
+
+  // vertices.cpp
   void insert_points(std::span<const Point> points);
   VertexId insert_near(Point point, EdgeId hint);
+  [[nodiscard]] VertexId merge(Location& place, Point point) const;
+  [[nodiscard]] EdgeId hint_for(Point point) const;
+  void remember(VertexId v);
+  [[nodiscard]] VertexId split_at(Location place, Point point);
+  [[nodiscard]] std::optional<EdgeId> bent_edge_at(TriangleId t, Point point);
+  void doubt_others_on(EdgeId e, Point point);
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
   void start(VertexId a, VertexId b);
   void extend(EdgeId end_to_infinity, VertexId v);
@@ -205,42 +361,117 @@ class Triangulation {
   [[nodiscard]] Location settle(Point point, EdgeId e) const;
 
   // constrain.cpp: segments
-  void constrain(SegmentId s);
-  [[nodiscard]] Obstacle walk(VertexId from, VertexId to);
-  [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Obstacle& obstacle) const;
+  void lay(SegmentId s);
+  [[nodiscard]] VertexId meet(EdgeId e, SegmentId s);
+  [[nodiscard]] bool connect(VertexId from, VertexId to, SegmentId s);
+  [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
+  [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
+                                     Obstacle& obstacle) const;
+  void doubt_beside(VertexId from, VertexId to, SegmentId s);
+  [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
+  void lay_crooked(SegmentId s, VertexId at);
   [[nodiscard]] VertexId cross(EdgeId e, SegmentId s);
   [[nodiscard]] std::optional<Point> crossing_point(EdgeId e, SegmentId s) const;
-  [[nodiscard]] VertexId snap(EdgeId e, Point place);
+  [[nodiscard]] VertexId split_at_crossing(EdgeId e, Point place);
+  [[nodiscard]] VertexId snap(EdgeId e, Point place, SegmentId s);
   void reroute(EdgeId e, VertexId through);
   void mark(EdgeId e, SegmentId s);
   void follow_corridor(VertexId from, VertexId to, SegmentId s);
+  [[nodiscard]] bool goes_by(VertexId at, VertexId goal, const Obstacle& obstacle);
+  void doubt(SegmentId s, Point place) { snaps_.push_back({s, place}); }
+  [[nodiscard]] std::pair<Point, Point> ends_of(SegmentId s) const;
+
+  // cavity.cpp
   EdgeId force_edge(VertexId from, VertexId to);
   void gather_cavity();
   void add_gap(Cavity& cavity, EdgeId inside, VertexId end);
   void match_gaps();
+  [[nodiscard]] EdgeId fill(Cavity& cavity);
   [[nodiscard]] EdgeId fill(Cavity& cavity, std::uint32_t low, std::uint32_t high);
+  [[nodiscard]] EdgeId fill_large(Cavity& cavity);
   [[nodiscard]] std::uint32_t choose_tip(const Cavity& cavity, std::uint32_t low,
                                          std::uint32_t high) const;
   [[nodiscard]] bool opens_towards(const Cavity& cavity, std::uint32_t tip, VertexId low,
                                    VertexId high) const;
   void close(Cavity& cavity, std::uint32_t gap, EdgeId inside);
+  [[nodiscard]] TriangleId spare_triangle();
 
+  // remove.cpp
+  void take_off(SegmentId s);
+  [[nodiscard]] std::optional<Passage> find_passage(EdgeId e, SegmentId s) const;
+  void unmark(EdgeId e, Passage passage);
+  void settle_loose();
+  void examine(VertexId v);
+  [[nodiscard]] bool passes_straight(EdgeId before, EdgeId after) const;
+  [[nodiscard]] bool is_rightly_on(SegmentId s, VertexId v) const;
+  void gather_segments(VertexId v);
+  void lay_again();
+  void release_points(ConstraintId id);
+  [[nodiscard]] std::size_t count_points_at(VertexId v) const;
+  void note_edited(ConstraintId id);
+  void forget_dead_snaps();
+  void straighten(std::size_t known_snaps);
+
+  // holes.cpp: vertices taken out
+  void delete_vertex(VertexId v);
+  [[nodiscard]] bool delete_between(VertexId v, EdgeId before, EdgeId after);
+  void delete_from_line(VertexId v);
+  void gather_half(Cavity& cavity, EdgeId first, EdgeId last);
+  [[nodiscard]] bool is_beside(const Cavity& cavity) const;
+  void gather_hole(VertexId v);
+  void rate(std::uint32_t corner, Point centre);
+  void cut_ears(Point centre);
+  void cut_ear(std::uint32_t corner);
+  void close_hole(std::uint32_t start);
+
+  // move.cpp
+  void move_to(ConstraintId id, std::span<const Point> points);
+  void replace(ConstraintId id, std::span<const Point> points);
+  [[nodiscard]] bool ends_at(EdgeId e, VertexId v) const;
+  void move_in_place(ConstraintId id, std::span<const Point> points);
+  [[nodiscard]] bool is_plain(SegmentId s) const;
+  [[nodiscard]] bool move_vertex(VertexId v, Point point);
+
+  double epsilon_ = 0;
   std::vector<OrientedEdge> edges_;
+  std::vector<PassageSet> edge_sets_;  // of constrained edges; the same on both sides
   std::vector<Point> points_;
   std::vector<EdgeId> vertex_edges_;
+  std::vector<std::uint32_t> uses_;  // points of constraints at a vertex, and insert(Point)s
   std::vector<Constraint> constraints_;
+  std::vector<ConstraintId> without_length_;  // the first at each vertex; as long as needed
   std::vector<Segment> segments_;
   PassageSets sets_;
+  std::vector<TriangleId> free_triangles_;
+  std::vector<VertexId> free_vertices_;
+  std::vector<ConstraintId> free_constraints_;
+  std::vector<std::uint32_t> free_segments_;  // the first block of each size class
+  std::uint32_t dense_segments_ = unused;     // below it, blocks are as long as they were asked
+  std::vector<Snap> snaps_;
+  Locator locator_;
   EdgeId last_;
+  VertexId only_;        // the only vertex, while there is just one
   bool is_flat_ = true;  // no finite triangle yet: all vertices in one line
-  std::size_t snaps_ = 0;
+  bool is_recording_ = false;
+  Changes changes_;
 
   // Scratch memory of single operations, kept to spare allocations.
+  std::vector<Touch> touched_;
   std::vector<VertexId> inserted_;
   std::vector<EdgeId> suspects_;
   std::vector<EdgeId> crossed_;
   std::vector<VertexId> goals_;
   std::vector<TriangleId> spare_;
+  std::vector<VertexId> loose_;
+  std::vector<SegmentId> taken_off_;
+  std::vector<SegmentId> around_;
+  std::vector<Passage> around_passages_;
+  std::vector<Corner> corners_;
+  std::vector<Ear> ears_;
+  std::vector<Point> places_;
+  std::vector<char> stays_;
+  std::vector<std::uint32_t> still_;
+  std::vector<std::pair<Point, Point>> edited_;
   Cavity left_;
   Cavity right_;
 };

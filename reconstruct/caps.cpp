@@ -12,13 +12,13 @@ std::vector<std::array<std::uint32_t, 3>> flat_cap(const Region& region) {
   cdt::Triangulation mesh;
   mesh.reserve(region.points.size());
   insert_loops(region, mesh);
-  std::vector<std::uint32_t> index(mesh.vertex_count() + 1, Origin::none);
-  for (std::uint32_t s = 0; s < mesh.segment_count(); ++s)
+  std::vector<std::uint32_t> index(mesh.vertex_bound(), Origin::none);
+  for (std::uint32_t s = 0; s < mesh.segment_bound(); ++s)
     index[mesh.segment(cdt::SegmentId(s)).from.index()] = region.loop_vertices[s];
 
   std::vector<std::array<std::uint32_t, 3>> triangles;
   const auto is_inside = cdt::odd_parity(mesh);
-  for (std::uint32_t t = 0; t < mesh.triangle_count(); ++t) {
+  for (std::uint32_t t = 0; t < mesh.triangle_bound(); ++t) {
     if (!is_inside[t]) continue;
     const cdt::EdgeId e = cdt::Triangulation::edge(cdt::TriangleId(t));
     const std::array corners{index[mesh.from(e).index()], index[mesh.to(e).index()],

@@ -125,7 +125,7 @@ void Lift::decide_columns() {
   for (std::uint32_t i = 1; i <= mesh_.vertex_count(); ++i)
     if (slab_.is_column(VertexId(i))) columns_.push_back(VertexId(i));
   std::ranges::sort(columns_, {}, [&](VertexId v) { return mesh_.point(v); });
-  if (!columns_.empty()) column_heights_.assign(mesh_.edge_count(), Height::undecided);
+  if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::undecided);
   for (const VertexId v : columns_) {
     for (const Wedge& wedge : wedges(v)) {
       const Level level = choose(wedge);
@@ -137,7 +137,7 @@ void Lift::decide_columns() {
 
 /// After splits: contour edges at a column stay, so wedges are known by their first one.
 void Lift::restore_columns() {
-  if (!columns_.empty()) column_heights_.assign(mesh_.edge_count(), Height::undecided);
+  if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::undecided);
   for (const VertexId v : columns_)
     for (const Wedge& wedge : wedges(v))
       set_heights(wedge, choices_.at({v, mesh_.passages(wedge.first).front().segment()}));
@@ -182,7 +182,7 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
   SheetHeights heights(slab_);
   const double half_way = slab_.lower().z + slab_.height() / 2;
   std::vector<Steiner> found;
-  for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
+  for (std::uint32_t t = 0; t < mesh_.triangle_bound(); ++t) {
     const EdgeId first = Triangulation::edge(TriangleId(t));
     if (!slab_.is_sheet(first)) continue;
     bool has_chord = false;
@@ -212,7 +212,7 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
 std::vector<Lift::Steiner> Lift::find_coarse_ends() const {
   SheetHeights heights(slab_);
   std::vector<Steiner> found;
-  for (std::uint32_t i = 0; i < mesh_.edge_count(); ++i) {
+  for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
     const EdgeId e(i);
     if (!slab_.is_sheet(e) || mesh_.is_constrained(e) || mesh_.twin(e) < e) continue;
     if (!heights.is_end(e)) continue;

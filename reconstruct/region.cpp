@@ -214,7 +214,7 @@ class Cleaning {
   /// Edges along which contours run more than once: spikes, and outlines that share a side.
   void report_overlaps() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, Point> found;
-    for (std::uint32_t i = 0; i < mesh_.edge_count(); ++i) {
+    for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
       const EdgeId e(i);
       const auto passages = mesh_.passages(e);
       if (passages.size() < 2 || mesh_.twin(e) < e) continue;
@@ -265,7 +265,7 @@ class Cleaning {
     region.z = z_;
     region.slice = contours_.empty() ? 0 : contours_.front().slice;
     region.loop_starts.push_back(0);
-    std::vector<bool> is_done(mesh_.edge_count());
+    std::vector<bool> is_done(mesh_.edge_bound());
     index_.assign(mesh_.vertex_count() + 1, Origin::none);
     for (std::uint32_t v = 1; v <= mesh_.vertex_count(); ++v) {
       const EdgeId first = mesh_.edge(VertexId(v));

@@ -23,7 +23,7 @@ constexpr double least_share = 1e-3;
 }  // namespace
 
 SheetHeights::SheetHeights(const Slab& slab)
-    : slab_(slab), sheet_of_(slab.overlay().triangle_count(), Origin::none) {}
+    : slab_(slab), sheet_of_(slab.overlay().triangle_bound(), Origin::none) {}
 
 double SheetHeights::depth(EdgeId e, Point p) { return sheet(e).depth(p); }
 

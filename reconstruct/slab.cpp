@@ -26,9 +26,9 @@ Vec3 Slab::place(cdt::VertexId v, double z) const {
 }
 
 bool Slab::is_exact() const {
-  if (overlay_.snaps() != 0) return false;
+  if (!overlay_.snaps().empty()) return false;
   std::vector<std::uint8_t> passing(overlay_.vertex_count() + 1);  // segments through each vertex
-  for (std::uint32_t i = 0; i < overlay_.edge_count(); ++i) {
+  for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
     const cdt::EdgeId e(i);
     for (const cdt::Passage passage : overlay_.passages(e)) {
       const cdt::Segment& segment = overlay_.segment(passage.segment());
@@ -50,7 +50,7 @@ bool Slab::is_tight(double height) const {
     return v != cdt::Triangulation::infinite && !is_vertex(v, Level::lower) &&
            !is_vertex(v, Level::upper);
   };
-  for (std::uint32_t i = 0; i < overlay_.edge_count(); ++i) {
+  for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
     const cdt::EdgeId e(i);
     if (!is_crossing(overlay_.from(e)) || overlay_.is_infinite(cdt::Triangulation::triangle(e)))
       continue;

@@ -29,9 +29,9 @@ class Tiling {
 
   TileSet run() {
     tiles_.inner = lift_.inner();
-    tiles_.tiles.reserve(mesh_.triangle_count());
+    tiles_.tiles.reserve(mesh_.triangle_bound());
     add_sheets();
-    for (std::uint32_t s = 0; s < mesh_.segment_count(); ++s) add_wall(SegmentId(s));
+    for (std::uint32_t s = 0; s < mesh_.segment_bound(); ++s) add_wall(SegmentId(s));
     return std::move(tiles_);
   }
 
@@ -41,7 +41,7 @@ class Tiling {
  private:
   /// Sheets of the lower region have the solid below them, those of the upper one above.
   void add_sheets() {
-    for (std::uint32_t t = 0; t < mesh_.triangle_count(); ++t) {
+    for (std::uint32_t t = 0; t < mesh_.triangle_bound(); ++t) {
       const EdgeId e = Triangulation::edge(cdt::TriangleId(t));
       if (!slab_.is_sheet(e)) continue;
       std::uint32_t a = lift_.node(e);
@@ -148,7 +148,7 @@ class Tiling {
     for (std::size_t i = 0; i < segments.size(); ++i)
       corner_[segments[i].from.index()] = polygon_[i];
     const auto is_inside = cdt::odd_parity(wall_);
-    for (std::uint32_t t = 0; t < wall_.triangle_count(); ++t) {
+    for (std::uint32_t t = 0; t < wall_.triangle_bound(); ++t) {
       if (!is_inside[t]) continue;
       const EdgeId e = Triangulation::edge(cdt::TriangleId(t));
       add({corner_[wall_.from(e).index()], corner_[wall_.to(e).index()],

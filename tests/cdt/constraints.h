@@ -13,7 +13,7 @@
 namespace loft::cdt {
 
 /// A polyline to insert.
-struct Polyline {
+struct OwnPolyline {
   std::vector<Point> points;
   Ends ends = open;
 };
@@ -24,7 +24,7 @@ inline constexpr Places all_places[] = {Places::grid, Places::decimals, Places::
                                         Places::nearly_equal};
 
 /// Up to twelve polylines of up to eight points that cross, overlap and repeat themselves.
-inline std::vector<Polyline> random_polylines(std::uint64_t seed, Places places) {
+inline std::vector<OwnPolyline> random_polylines(std::uint64_t seed, Places places) {
   std::mt19937_64 random(seed);
   const auto below = [&](std::uint64_t n) { return static_cast<double>(random() % n); };
   const auto coordinate = [&] {
@@ -40,8 +40,8 @@ inline std::vector<Polyline> random_polylines(std::uint64_t seed, Places places)
     }
     return below(3) + below(1000) * 1e-16;
   };
-  std::vector<Polyline> polylines(1 + random() % 12);
-  for (Polyline& polyline : polylines) {
+  std::vector<OwnPolyline> polylines(1 + random() % 12);
+  for (OwnPolyline& polyline : polylines) {
     polyline.points.resize(1 + random() % 8);
     for (Point& p : polyline.points) {
       p.x = coordinate();

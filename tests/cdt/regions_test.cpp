@@ -64,7 +64,7 @@ TEST(Regions, ParityIsThatOfARayThroughEveryPolygon) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto polylines = random_polylines(seed, Places::decimals);
     Triangulation mesh;
-    for (const Polyline& polyline : polylines) mesh.insert(polyline.points, closed);
+    for (const OwnPolyline& polyline : polylines) mesh.insert(polyline.points, closed);
     const auto parity = odd_parity(mesh);
     std::mt19937_64 random(seed);
     std::uniform_real_distribution<double> coordinate(-0.1, 1.1);
@@ -73,7 +73,7 @@ TEST(Regions, ParityIsThatOfARayThroughEveryPolygon) {
       const auto place = mesh.locate(p);
       if (place.kind != Location::Kind::triangle && place.kind != Location::Kind::outside) continue;
       bool expected = false;
-      for (const Polyline& polyline : polylines) expected ^= is_inside(polyline.points, p);
+      for (const OwnPolyline& polyline : polylines) expected ^= is_inside(polyline.points, p);
       EXPECT_EQ(parity[Triangulation::triangle(place.edge).index()], expected);
     }
   }

@@ -16,9 +16,9 @@
 namespace loft::cdt {
 namespace {
 
-Triangulation triangulate(const std::vector<Polyline>& polylines) {
+Triangulation triangulate(const std::vector<OwnPolyline>& polylines) {
   Triangulation mesh;
-  for (const Polyline& polyline : polylines) mesh.insert(polyline.points, polyline.ends);
+  for (const OwnPolyline& polyline : polylines) mesh.insert(polyline.points, polyline.ends);
   return mesh;
 }
 
@@ -101,7 +101,7 @@ TEST(Triangulation, StaysValidWhateverIsInserted) {
       SCOPED_TRACE("seed " + std::to_string(seed) + " places " +
                    std::to_string(static_cast<int>(places)));
       Triangulation mesh;
-      for (const Polyline& polyline : random_polylines(seed, places)) {
+      for (const OwnPolyline& polyline : random_polylines(seed, places)) {
         mesh.insert(polyline.points, polyline.ends);
         ASSERT_EQ(first_fault(mesh), "");
       }

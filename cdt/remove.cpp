@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "cdt/predicates.h"
+#include "cdt/rounding.h"
+#include "cdt/triangulation.h"
+
+namespace loft::cdt {
+
+/// KBT, remove_constraint: the ids come off the edges; then each vertex on the way goes if nothing
+/// needs it any more.
+void Triangulation::remove(ConstraintId id) {
+  check_known(id);
+  begin_edit();
+  note_edited(id);
+  const Constraint removed = constraints_[id.index()];
+  for (std::uint32_t i = 0; i < removed.segment_count; ++i)
+    take_off(SegmentId(removed.first_segment + i));
+  release_points(id);
+  settle_loose();
+  free_segments(id);
+  constraints_[id.index()].first_vertex = VertexId::none();
+  free_constraints_.push_back(id);
+  forget_dead_snaps();
+  straighten(snaps_.size());
+  end_edit();
+}
+
+void Triangulation::remove(VertexId v) {
+  if (!is_vertex(v)) throw std::invalid_argument("there is no vertex " + std::to_string(v.index()));
+  if (count_points_at(v) == uses_[v.index()])
+    throw std::invalid_argument("vertex " + std::to_string(v.index()) +
+                                " belongs to constraints only: remove these");
+  begin_edit();
+  if (!snaps_.empty()) edited_.emplace_back(point(v), point(v));
+  --uses_[v.index()];
+  loose_.push_back(v);
+  settle_loose();
+  straighten(snaps_.size());
+  end_edit();
+}
+
+/// Takes the passages of a segment off its edges, from vertex to vertex: rounding may have led it
+/// in loops.
+void Triangulation::take_off(SegmentId s) {
+  const std::size_t first = goals_.size();
+  goals_.push_back(segment(s).from);
+  while (goals_.size() > first) {
+    const VertexId v = goals_.back();
+    goals_.pop_back();
+    if (loose_.empty() || loose_.back() != v) loose_.push_back(v);
+    const EdgeId start = edge(v);
+    if (start.is_none()) continue;
+    EdgeId e = start;
+    do {
+      if (is_constrained(e)) {
+        while (const auto passage = find_passage(e, s)) {
+          unmark(e, *passage);
+          goals_.push_back(to(e));
+        }
+      }
+      e = rotated(e);
+    } while (e != start);
+  }
+}
+
+std::optional<Passage> Triangulation::find_passage(EdgeId e, SegmentId s) const {
+  for (const Passage passage : passages(e))
+    if (passage.segment() == s) return passage;
+  return {};
+}
+
+void Triangulation::unmark(EdgeId e, Passage passage) {
+  touch(triangle(e));
+  touch(triangle(twin(e)));
+  const PassageSet left = sets_.without(side(e).set, passage);
+  join(e, twin(e), left);
+  if (left.is_empty()) suspects_.push_back(e);
+}
+
+/// One use less of each vertex of a constraint.
+void Triangulation::release_points(ConstraintId id) {
+  for_each_point(id, [&](VertexId v) {
+    --uses_[v.index()];
+    loose_.push_back(v);
+  });
+  if (!is_without_length(id)) return;
+  ConstraintId* link = &without_length_[first_vertex(id).index()];
+  while (*link != id) link = &constraints_[link->index()].next_here;
+  *link = constraints_[id.index()].next_here;
+}
+
+/// Decides about each vertex that lost something, then lays again what that took off.
+void Triangulation::settle_loose() {
+  restore_delaunay();
+  // Others may be added on the way.
+  for (std::size_t i = 0; i < loose_.size(); ++i) {
+    if (i + 1 < loose_.size() && loose_[i + 1] == loose_[i]) continue;
+    if (is_vertex(loose_[i])) examine(loose_[i]);
+  }
+  loose_.clear();
+  lay_again();
+}
+
+/// A vertex goes if no point of a constraint is there and no two segments cross there. One that
+/// stays sheds the segments that only went through it because of what is gone.
+void Triangulation::examine(VertexId v) {
+  const bool is_used = uses_[v.index()] > 0;
+  const EdgeId first = edge(v);
+  if (first.is_none()) {  // the only vertex
+    if (!is_used) delete_from_line(v);
+    return;
+  }
+  EdgeId constrained[2] = {EdgeId::none(), EdgeId::none()};
+  std::size_t degree = 0;
+  EdgeId e = first;
+  do {
+    if (is_constrained(e) && degree++ < 2) constrained[degree - 1] = e;
+    e = rotated(e);
+  } while (e != first);
+
+  if (degree == 0) {
+    if (!is_used) delete_vertex(v);
+    return;
+  }
+  if (!is_used && degree == 2 && passes_straight(twin(constrained[0]), constrained[1]) &&
+      delete_between(v, constrained[0], constrained[1]))
+    return;
+  gather_segments(v);
+  const std::size_t known = taken_off_.size();
+  for (const SegmentId s : around_) {
+    const bool ends_here = segment(s).from == v || segment(s).to == v;
+    if (!ends_here && !is_rightly_on(s, v)) taken_off_.push_back(s);
+  }
+  for (std::size_t i = known; i < taken_off_.size(); ++i) take_off(taken_off_[i]);
+  restore_delaunay();
+}
+
+/// Whether the same segments, none crossing another, run along both edges, which meet in a vertex.
+bool Triangulation::passes_straight(EdgeId before, EdgeId after) const {
+  const auto in = passages(before);
+  const auto out = passages(after);
+  if (in.size() != out.size()) return false;
+  const bool is_turned = is_upward(before) != is_upward(after);
+  if (in.size() == 1) {
+    const Passage passage = is_turned ? out[0].reversed() : out[0];
+    return in[0] == passage;
+  }
+  for (std::size_t i = 0; i < in.size(); ++i) {
+    if (std::ranges::count(in, in[i]) !=
+        std::ranges::count(out, is_turned ? in[i].reversed() : in[i]))
+      return false;
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto [a, b] = ends_of(in[i].segment());
+      const auto [c, d] = ends_of(in[j].segment());
+      if (crosses(a, b, c, d)) return false;
+    }
+  }
+  return true;
+}
+
+/// The segments along the edges at a vertex, each once.
+void Triangulation::gather_segments(VertexId v) {
+  around_.clear();
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    for (const Passage passage : passages(e)) around_.push_back(passage.segment());
+    e = rotated(e);
+  } while (e != first);
+  std::ranges::sort(around_);
+  const auto repeated = std::ranges::unique(around_);
+  around_.erase(repeated.begin(), repeated.end());
+}
+
+/// Whether a segment through v has to go there: because of a point on it, or because it crosses
+/// another one of around_ there.
+bool Triangulation::is_rightly_on(SegmentId s, VertexId v) const {
+  const Point place = point(v);
+  const auto [a, b] = ends_of(s);
+  if (uses_[v.index()] > 0) {
+    if (orient(a, b, place) == 0) return true;
+    if (epsilon_ > 0 && distance_to_line(a, b, place) <= epsilon_) return true;
+  }
+  return std::ranges::any_of(around_, [&](SegmentId other) {
+    const auto [c, d] = ends_of(other);
+    if (other == s || !crosses(a, b, c, d)) return false;
+    const Point crossing = ends_of(other) < ends_of(s) ? intersection(c, d, a, b)
+                                                       : intersection(a, b, c, d);
+    return crossing == place || (epsilon_ > 0 && distance(crossing, place) <= epsilon_);
+  });
+}
+
+/// Lays the segments that were taken off because they passed through vertices without reason.
+void Triangulation::lay_again() {
+  while (!taken_off_.empty()) {
+    const SegmentId s = taken_off_.back();
+    taken_off_.pop_back();
+    lay(s);
+  }
+}
+
+// --- Snaps ---
+
+/// Where there are snaps, keeps the places of a constraint to find those near it afterwards.
+void Triangulation::note_edited(ConstraintId id) {
+  if (snaps_.empty()) return;
+  for_each_point(id, [&](VertexId v) { edited_.emplace_back(point(v), point(v)); });
+  for (const Segment& s : segments(id)) edited_.emplace_back(point(s.from), point(s.to));
+}
+
+void Triangulation::forget_dead_snaps() {
+  std::erase_if(snaps_, [&](const Snap& snap) { return !is_segment(snap.segment); });
+}
+
+/// Lays the segments again that rounding led astray near the edited places: the reason may be gone.
+/// `known_snaps` were there before the edit.
+void Triangulation::straighten(std::size_t known_snaps) {
+  if (edited_.empty()) return;
+  constexpr double nearly = 64;
+  const auto is_near = [&](Point place) {
+    return std::ranges::any_of(edited_, [&](const auto& ends) {
+      const auto& [a, b] = ends;
+      if (a == b) return are_hardly_apart(a, place);
+      return is_hardly_beside(a, b, place, nearly);
+    });
+  };
+  for (std::size_t i = 0; i < known_snaps; ++i) {
+    const Snap& snap = snaps_[i];
+    if (std::ranges::find(taken_off_, snap.segment) == taken_off_.end() && is_near(snap.place))
+      taken_off_.push_back(snap.segment);
+  }
+  if (taken_off_.empty()) return;
+  std::ranges::sort(taken_off_);
+  std::erase_if(snaps_, [&](const Snap& snap) {
+    return std::ranges::binary_search(taken_off_, snap.segment);
+  });
+  for (std::size_t i = 0, known = taken_off_.size(); i < known; ++i) take_off(taken_off_[i]);
+  settle_loose();
+}
+
+}  // namespace loft::cdt

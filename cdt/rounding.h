@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+
+#include "cdt/point.h"
+#include "cdt/predicates.h"
+
+namespace loft::cdt {
+
+// Where correctly rounded crossings may be on the wrong side of something. These tests only raise
+// doubt, generously and cheaply; they decide nothing.
+
+/// Coordinates of crossings are off by half a unit in the last place: within so many of these,
+/// relative to the coordinates, order and side are for exact tests to decide.
+inline constexpr double doubtful_rounding = 16 * detail::rounding;
+
+[[nodiscard]] inline double distance(Point p, Point q) {
+  return std::hypot(p.x - q.x, p.y - q.y);
+}
+
+/// How far p is from the line through a and b, which are different.
+[[nodiscard]] inline double distance_to_line(Point a, Point b, Point p) {
+  return std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x)) / distance(a, b);
+}
+
+[[nodiscard]] inline double distance_to_segment(Point a, Point b, Point p) {
+  const Point way{b.x - a.x, b.y - a.y};
+  const double along = (p.x - a.x) * way.x + (p.y - a.y) * way.y;
+  if (!(along > 0)) return distance(a, p);
+  if (along >= way.x * way.x + way.y * way.y) return distance(b, p);
+  return distance_to_line(a, b, p);
+}
+
+/// Whether two places are so near that rounding may have exchanged them along a line.
+[[nodiscard]] inline bool are_hardly_apart(Point p, Point q) {
+  const double reach = std::max(std::abs(p.x), std::abs(p.y));
+  return std::abs(p.x - q.x) + std::abs(p.y - q.y) <= doubtful_rounding * reach;
+}
+
+/// Whether p is so near the line ab that rounding a and b may have put it on the wrong side.
+[[nodiscard]] inline bool is_hardly_beside(Point a, Point b, Point p, double slack = 1) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  const double area = dx * (p.y - a.y) - dy * (p.x - a.x);
+  const double reach = std::max(std::abs(p.x), std::abs(p.y));
+  return std::abs(area) <= slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy));
+}
+
+/// Whether q comes after p on the way from a to b, where both are on that line but for correct
+/// rounding, which keeps the order of each coordinate.
+[[nodiscard]] inline bool is_ahead(Point p, Point q, Point a, Point b) {
+  const auto keeps = [](double from, double to, double start, double end) {
+    return start <= end ? from <= to : from >= to;
+  };
+  return p != q && keeps(p.x, q.x, a.x, b.x) && keeps(p.y, q.y, a.y, b.y);
+}
+
+}  // namespace loft::cdt

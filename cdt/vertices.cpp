@@ -1,0 +1,410 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <bit>
+#include <stdexcept>
+
+#include "cdt/disc.h"
+#include "cdt/predicates.h"
+#include "cdt/rounding.h"
+#include "cdt/triangulation.h"
+
+namespace loft::cdt {
+
+namespace {
+
+bool is_between(Point a, Point b, Point p) { return a < b ? a < p && p < b : b < p && p < a; }
+
+}  // namespace
+
+/// Coarse to fine: every 2^k-th point, then those half way between, each located from its
+/// neighbour. Along a curve, in the order of the curve, most flips would be undone by later ones.
+void Triangulation::insert_points(std::span<const Point> points) {
+  const std::size_t n = points.size();
+  inserted_.resize(n);
+  if (locator_.is_outgrown(vertex_count(), points[0])) locator_.lay_out(points_, vertex_count());
+  inserted_[0] = insert_near(points[0], hint_for(points[0]));
+  for (std::size_t stride = std::bit_floor(n); stride > 0; stride /= 2)
+    for (std::size_t i = stride; i < n; i += 2 * stride)
+      inserted_[i] = insert_near(points[i], edge(inserted_[i - stride]));
+  for (const VertexId v : inserted_) ++uses_[v.index()];
+}
+
+TriangleId Triangulation::new_triangle() {
+  TriangleId t;
+  if (free_triangles_.empty()) {
+    t = TriangleId(static_cast<std::uint32_t>(triangle_bound()));
+    if (edges_.size() + 3 > OrientedEdge::constrained)
+      throw std::length_error("a triangulation has at most 2^31 edges");
+    edges_.resize(edges_.size() + 3);
+    edge_sets_.resize(edges_.size());
+  } else {
+    t = free_triangles_.back();
+    free_triangles_.pop_back();
+  }
+  if (is_recording_) touched_.push_back({t, false});
+  return t;
+}
+
+void Triangulation::free_triangle(TriangleId t) {
+  touch(t);
+  for (unsigned i = 0; i < 3; ++i) edges_[3 * t.index() + i] = {VertexId::none(), 0};
+  free_triangles_.push_back(t);
+}
+
+VertexId Triangulation::new_vertex(Point point) {
+  if (!free_vertices_.empty()) {
+    const VertexId v = free_vertices_.back();
+    free_vertices_.pop_back();
+    points_[v.index()] = point;
+    uses_[v.index()] = 0;
+    return v;
+  }
+  const VertexId v(static_cast<std::uint32_t>(points_.size()));
+  points_.push_back(point);
+  vertex_edges_.emplace_back();
+  uses_.push_back(0);
+  return v;
+}
+
+void Triangulation::free_vertex(VertexId v) {
+  points_[v.index()] = point(infinite);
+  vertex_edges_[v.index()] = EdgeId::none();
+  uses_[v.index()] = unused;
+  free_vertices_.push_back(v);
+}
+
+/// Puts an edge in the place of another that had this side.
+void Triangulation::attach(EdgeId e, Side side) {
+  edges_[e.index()].bits = side.bits;
+  const std::uint32_t flag = side.bits & OrientedEdge::constrained;
+  edges_[side.bits & ~OrientedEdge::constrained].bits = e.index() | flag;
+  if (flag != 0) edge_sets_[e.index()] = side.set;
+}
+
+void Triangulation::join(EdgeId a, EdgeId b) {
+  edges_[a.index()].bits = b.index();
+  edges_[b.index()].bits = a.index();
+}
+
+void Triangulation::join(EdgeId a, EdgeId b, PassageSet set) {
+  if (set.is_empty()) {
+    join(a, b);
+    return;
+  }
+  edges_[a.index()].bits = b.index() | OrientedEdge::constrained;
+  edges_[b.index()].bits = a.index() | OrientedEdge::constrained;
+  edge_sets_[a.index()] = set;
+  edge_sets_[b.index()] = set;
+}
+
+void Triangulation::remember(VertexId v) { locator_.add(v, point(v)); }
+
+VertexId Triangulation::insert_near(Point point, EdgeId hint) {
+  Location place = locate(point, hint);
+  if (place.kind == Location::Kind::vertex) {
+    last_ = place.edge;
+    return from(place.edge);
+  }
+  if (place.kind == Location::Kind::nowhere) {
+    if (vertex_count() == 1 && distance(this->point(only_), point) <= epsilon_) return only_;
+    const VertexId v = new_vertex(point);
+    if (vertex_count() == 1) {
+      only_ = v;
+      return v;
+    }
+    start(only_, v);
+    last_ = edge(v);
+    return v;
+  }
+  if (epsilon_ > 0) {
+    if (const VertexId v = merge(place, point); !v.is_none()) return v;
+  } else if (place.kind == Location::Kind::triangle) {
+    if (const auto bent = bent_edge_at(triangle(place.edge), point))
+      place = {Location::Kind::edge, *bent};
+  } else if (place.kind == Location::Kind::edge && is_constrained(place.edge)) {
+    doubt_others_on(place.edge, point);
+  }
+  const VertexId v = split_at(place, point);
+  last_ = edge(v);
+  remember(v);
+  return v;
+}
+
+/// With an epsilon: the nearest vertex that close to a point in no vertex; if there is none, `place`
+/// becomes the nearest constrained edge that close, where that can be split there.
+VertexId Triangulation::merge(Location& place, Point p) const {
+  VertexId vertex;
+  EdgeId constrained;
+  double to_vertex = epsilon_;
+  double to_edge = epsilon_;
+  visit_disc(*this, place, p, [&] { return epsilon_; }, [&](TriangleId t) {
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = edge(t, corner);
+      if (const double d = distance(point(from(e)), p); d <= to_vertex) {
+        vertex = from(e);
+        to_vertex = d;
+      }
+      if (!is_constrained(e)) continue;
+      if (const double d = distance_to_segment(point(from(e)), point(to(e)), p); d <= to_edge) {
+        constrained = e;
+        to_edge = d;
+      }
+    }
+  });
+  if (vertex.is_none() && !constrained.is_none() && can_split(constrained, p))
+    place = {Location::Kind::edge, constrained};
+  return vertex;
+}
+
+/// A new vertex in a triangle, on an edge or outside.
+VertexId Triangulation::split_at(Location place, Point point) {
+  const VertexId v = new_vertex(point);
+  if (place.kind == Location::Kind::edge) {
+    split_edge(place.edge, v);
+  } else if (place.kind == Location::Kind::outside && to(place.edge) == infinite) {
+    extend(place.edge, v);
+  } else {
+    if (place.kind == Location::Kind::outside) is_flat_ = false;
+    split_triangle(triangle(place.edge), v);
+  }
+  return v;
+}
+
+/// An edge of the triangle that ought to go through this point in it: one of a segment that the
+/// point is on, where crossings, being rounded, have bent it.
+std::optional<EdgeId> Triangulation::bent_edge_at(TriangleId t, Point p) {
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const EdgeId e = edge(t, corner);
+    if (!is_constrained(e)) continue;
+    if (!is_hardly_beside(point(from(e)), point(to(e)), p)) continue;
+    bool belongs_here = false;
+    for (const Passage passage : passages(e)) {
+      const Segment& s = segment(passage.segment());
+      const int side = orient(point(s.from), point(s.to), p);
+      if (side == 0 && is_between(point(s.from), point(s.to), p)) {
+        belongs_here = true;
+      } else if (side != (is_forward(e, passage) ? 1 : -1)) {
+        doubt(passage.segment(), p);
+      }
+    }
+    if (!belongs_here) continue;
+    if (can_split(e, p)) {
+      doubt_others_on(e, p);
+      return e;
+    }
+    for (const Passage passage : passages(e)) doubt(passage.segment(), p);
+  }
+  return {};
+}
+
+/// Notes the segments along an edge that are led through a point without being there.
+void Triangulation::doubt_others_on(EdgeId e, Point p) {
+  for (const Passage passage : passages(e)) {
+    const Segment& s = segment(passage.segment());
+    if (orient(point(s.from), point(s.to), p) != 0) doubt(passage.segment(), p);
+  }
+}
+
+/// An edge with an infinite triangle on each side, whose edges to and from infinity are still open.
+/// Returns the edges a -> b and b -> a.
+std::pair<EdgeId, EdgeId> Triangulation::add_flat_edge(VertexId a, VertexId b) {
+  const EdgeId there = edge(new_triangle());
+  const EdgeId back = edge(new_triangle());
+  set_from(there, a);
+  set_from(next(there), b);
+  set_from(prev(there), infinite);
+  set_from(back, b);
+  set_from(next(back), a);
+  set_from(prev(back), infinite);
+  join(there, back);
+  join(next(there), prev(back));
+  vertex_edges_[b.index()] = back;
+  return {there, back};
+}
+
+/// The first two vertices.
+void Triangulation::start(VertexId a, VertexId b) {
+  const auto [there, back] = add_flat_edge(a, b);
+  join(prev(there), next(back));
+  vertex_edges_[a.index()] = there;
+  vertex_edges_[infinite.index()] = prev(there);
+  is_flat_ = true;
+}
+
+/// While all vertices are in one line: one more beyond the end that `end` leaves to infinity.
+void Triangulation::extend(EdgeId end, VertexId v) {
+  const EdgeId end_back = twin(end);
+  const auto [there, back] = add_flat_edge(from(end), v);
+  touch(triangle(end));
+  touch(triangle(end_back));
+  join(prev(there), end);
+  join(next(back), end_back);
+}
+
+/// Every triangle that a split makes has the new vertex at corner 2, and the edge that may need a
+/// flip at corner 0.
+void Triangulation::split_triangle(TriangleId t, VertexId v) {
+  touch(t);
+  const EdgeId old[3] = {edge(t, 0), edge(t, 1), edge(t, 2)};
+  const VertexId starts[3] = {from(old[0]), from(old[1]), from(old[2])};
+  const Side sides[3] = {side(old[0]), side(old[1]), side(old[2])};
+  const TriangleId parts[3] = {t, new_triangle(), new_triangle()};
+  for (unsigned i = 0; i < 3; ++i) {
+    set_from(edge(parts[i], 0), starts[i]);
+    set_from(edge(parts[i], 1), starts[(i + 1) % 3]);
+    set_from(edge(parts[i], 2), v);
+    attach(edge(parts[i], 0), sides[i]);
+    vertex_edges_[starts[i].index()] = edge(parts[i], 0);
+    suspects_.push_back(edge(parts[i], 0));
+  }
+  for (unsigned i = 0; i < 3; ++i) join(edge(parts[i], 1), edge(parts[(i + 1) % 3], 2));
+  vertex_edges_[v.index()] = edge(t, 2);
+  fan_out(v);
+}
+
+void Triangulation::split_edge(EdgeId e, VertexId v) {
+  const EdgeId f = twin(e);
+  const VertexId a = from(e);
+  const VertexId b = from(f);
+  const VertexId c = apex(e);
+  const VertexId d = apex(f);
+  touch(triangle(e));
+  touch(triangle(f));
+  const EdgeId old[4] = {prev(e), next(e), prev(f), next(f)};
+  Side sides[4] = {side(old[0]), side(old[1]), side(old[2]), side(old[3])};
+  const PassageSet set = side(e).set;
+  const bool was_upward = !set.is_empty() && is_upward(e);
+
+  // Around v, clockwise: (c, a, v), (b, c, v), (d, b, v), (a, d, v).
+  const VertexId starts[4] = {c, b, d, a};
+  const VertexId ends[4] = {a, c, b, d};
+  const TriangleId parts[4] = {triangle(e), new_triangle(), triangle(f), new_triangle()};
+  for (unsigned i = 0; i < 4; ++i) {
+    set_from(edge(parts[i], 0), starts[i]);
+    set_from(edge(parts[i], 1), ends[i]);
+    set_from(edge(parts[i], 2), v);
+  }
+  for (unsigned i = 0; i < 4; ++i) {
+    // At the end of a line of vertices the two infinite triangles are neighbours twice.
+    for (unsigned j = 0; is_flat_ && j < 4; ++j)
+      if (sides[i].bits == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
+    attach(edge(parts[i], 0), sides[i]);
+    vertex_edges_[starts[i].index()] = edge(parts[i], 0);
+    suspects_.push_back(edge(parts[i], 0));
+  }
+  // A rounded point may lie beyond the ends in the lexicographic order: turn the passages then.
+  const auto half = [&](VertexId low, VertexId high, PassageSet passages) {
+    const bool upward = !set.is_empty() && point(low) < point(high);
+    return upward == was_upward ? passages : sets_.reversed(passages);
+  };
+  join(edge(parts[0], 2), edge(parts[1], 1));                         // v-c
+  join(edge(parts[1], 2), edge(parts[2], 1), half(v, b, sets_.copy(set)));  // v-b
+  join(edge(parts[2], 2), edge(parts[3], 1));                         // v-d
+  join(edge(parts[3], 2), edge(parts[0], 1), half(a, v, set));        // v-a
+  vertex_edges_[v.index()] = edge(parts[0], 2);
+  fan_out(v);
+}
+
+/// Flips edges opposite to the new vertex v, listed in suspects_, until they are Delaunay
+/// (Lawson). Each is at corner 0 of its triangle, v at corner 2; flips keep it so.
+void Triangulation::fan_out(VertexId v) {
+  while (!suspects_.empty()) {
+    const EdgeId e = suspects_.back();
+    suspects_.pop_back();
+    if (is_constrained(e)) continue;
+    const EdgeId f = twin(e);
+    const VertexId a = from(e);
+    const VertexId b = from(f);
+    const VertexId d = apex(f);
+    if (!should_flip(a, b, v, d)) continue;
+
+    const Side ad = side(next(f));
+    const Side db = side(prev(f));
+    const Side bv = side(next(e));
+    const TriangleId t = triangle(e);
+    const TriangleId u = triangle(f);
+    touch(t);
+    touch(u);
+    set_from(edge(t, 1), d);
+    attach(edge(t, 0), ad);
+    set_from(edge(u, 0), d);
+    set_from(edge(u, 1), b);
+    set_from(edge(u, 2), v);
+    attach(edge(u, 0), db);
+    attach(edge(u, 1), bv);
+    join(edge(t, 1), edge(u, 2));
+    vertex_edges_[a.index()] = edge(t, 0);
+    vertex_edges_[b.index()] = edge(u, 1);
+    vertex_edges_[d.index()] = edge(u, 0);
+    suspects_.push_back(edge(t, 0));
+    suspects_.push_back(edge(u, 0));
+  }
+}
+
+bool Triangulation::can_split(EdgeId e, Point p) const {
+  const EdgeId around[4] = {next(e), prev(e), next(twin(e)), prev(twin(e))};
+  for (const EdgeId side : around) {
+    if (from(side) == infinite || to(side) == infinite) continue;
+    if (orient(point(from(side)), point(to(side)), p) <= 0) return false;
+  }
+  return from(e) != infinite && to(e) != infinite;
+}
+
+/// Whether the edge ab between the triangles (a, b, c) and (b, a, d) is not Delaunay. An infinite
+/// corner stands for a point so far away that circles through it are straight lines.
+bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const {
+  if (c == infinite || d == infinite) return false;
+  if (a == infinite) return orient(point(d), point(b), point(c)) > 0;
+  if (b == infinite) return orient(point(c), point(a), point(d)) > 0;
+  return in_circle_perturbed(point(a), point(b), point(c), point(d)) > 0;
+}
+
+/// Turns the diagonal of the two triangles beside e, which must make a convex quadrilateral.
+void Triangulation::flip(EdgeId e) {
+  const EdgeId f = twin(e);
+  const VertexId a = from(e);
+  const VertexId b = from(f);
+  const VertexId c = apex(e);
+  const VertexId d = apex(f);
+  const Side bc = side(next(e));
+  const Side ad = side(next(f));
+  const EdgeId dc = next(e);
+  const EdgeId cd = next(f);
+  touch(triangle(e));
+  touch(triangle(f));
+  attach(e, ad);  // a -> d
+  set_from(dc, d);
+  attach(f, bc);  // b -> c
+  set_from(cd, c);
+  join(dc, cd);
+  vertex_edges_[a.index()] = e;
+  vertex_edges_[b.index()] = f;
+  vertex_edges_[c.index()] = cd;
+  vertex_edges_[d.index()] = dc;
+}
+
+/// Flips until every edge that suspects_ leads to is constrained Delaunay.
+void Triangulation::restore_delaunay() {
+  while (!suspects_.empty()) {
+    const EdgeId e = suspects_.back();
+    suspects_.pop_back();
+    if (is_constrained(e)) continue;
+    const EdgeId f = twin(e);
+    if (!should_flip(from(e), from(f), apex(e), apex(f))) continue;
+    flip(e);
+    for (const EdgeId side : {e, f, prev(e), prev(f)}) suspects_.push_back(side);
+  }
+}
+
+/// Puts the edges at a vertex and those around it on the list of suspects.
+void Triangulation::push_star(VertexId v) {
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    suspects_.push_back(e);
+    suspects_.push_back(next(e));
+    e = rotated(e);
+  } while (e != first);
+}
+
+}  // namespace loft::cdt
