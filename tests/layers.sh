@@ -23,15 +23,15 @@ offenders=$(
   includes cdt | grep -vE '#include("cdt/[a-z_]+\.h"|<[a-z_0-9]+>)'
   forbid cdt '(fstream|filesystem|iostream|chrono|thread|mutex)>'
 
-  forbid reconstruct '(io|app|tests|samples)/'
+  forbid reconstruct '(io|app|tests|samples|bench)/'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>|nlohmann|tiny_gltf|CLI'
 
-  forbid io '(app|tests|samples)/|chrono>|CLI'
-  forbid app '(tests|samples)/|tiny_gltf'
+  forbid io '(app|tests|samples|bench)/|chrono>|CLI'
+  forbid app '(tests|samples|bench)/|tiny_gltf'
 
   # Our own headers are named from the root of the project, so that their layer can be seen.
-  includes cdt reconstruct io app tests samples |
-    grep '#include"' | grep -vE '#include"(cdt|reconstruct|io|app|tests)/'
+  includes cdt reconstruct io app tests samples bench |
+    grep '#include"' | grep -vE '#include"(cdt|reconstruct|io|app|tests|bench)/'
 )
 if [ -n "$offenders" ]; then
   echo "These lines include what their layer must not know (app -> io -> reconstruct -> cdt):"

@@ -15,8 +15,8 @@ ours() {
 
 case ${1:-} in
   format)
-    { ours '*.h' cdt reconstruct io app tests samples
-      ours '*.cpp' cdt reconstruct io app tests samples; } |
+    { ours '*.h' cdt reconstruct io app tests samples bench
+      ours '*.cpp' cdt reconstruct io app tests samples bench; } |
       xargs clang-format --dry-run -Werror
     ;;
   tidy)

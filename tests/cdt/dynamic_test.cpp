@@ -1,0 +1,609 @@
+// SPDX-License-Identifier: MIT
+// What happens when constraints go and move. Random edits are in edits_test.cpp; these are the
+// cases that have a name.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "cdt/check.h"
+#include "cdt/triangulation.h"
+#include "tests/cdt/allocations.h"
+#include "tests/cdt/judge.h"
+#include "tests/cdt/picture.h"
+#include "tests/cdt/random_edits.h"
+#include "tests/cdt/reference.h"
+
+namespace loft::cdt {
+namespace {
+
+using Points = std::vector<Point>;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+std::string first_finding(const Triangulation& mesh) {
+  const auto findings = check(mesh);
+  return findings.empty() ? "" : findings.front().message;
+}
+
+/// The picture of a triangulation that has only seen insertions.
+Picture fresh_picture(const std::vector<Outline>& outlines) {
+  Triangulation mesh;
+  std::vector<ConstraintId> ids;
+  for (const auto& [points, ends] : outlines) ids.push_back(mesh.insert(points, ends));
+  return picture_of(mesh, ids);
+}
+
+void expect_picture(const Triangulation& mesh, const std::vector<ConstraintId>& ids,
+                    const std::vector<Outline>& outlines) {
+  EXPECT_EQ(first_finding(mesh), "");
+  EXPECT_EQ(difference(picture_of(mesh, ids), fresh_picture(outlines)), "");
+}
+
+/// Plays a script; after every edit all is as in a fresh triangulation and as the reference says.
+void expect_right(std::string_view text) {
+  const Script script = read_script(text);
+  Tally tally;
+  EXPECT_EQ(verdict(script, {1, 1000}, tally), "");
+  EXPECT_EQ(tally.same_as_reference, script.size()) << text;
+}
+
+/// Inserts all and removes them one by one, in every order.
+void expect_removable_in_every_order(const std::vector<Outline>& outlines) {
+  std::vector<std::size_t> order(outlines.size());
+  std::iota(order.begin(), order.end(), 0U);
+  do {
+    Script script;
+    for (std::size_t i = 0; i < outlines.size(); ++i)
+      script.push_back({Edit::Kind::insert, i, outlines[i], {}});
+    for (const std::size_t i : order) script.push_back({Edit::Kind::remove, i, {}, {}});
+    Tally tally;
+    EXPECT_EQ(verdict(script, {1, 1000}, tally), "");
+    EXPECT_EQ(tally.same_as_reference, script.size());
+  } while (std::ranges::next_permutation(order).found);
+}
+
+VertexId vertex_at(const Triangulation& mesh, Point p) {
+  const Location place = mesh.locate(p);
+  return place.kind == Location::Kind::vertex ? mesh.from(place.edge) : VertexId::none();
+}
+
+Points ring(std::size_t n, double radius, Point centre = {}) {
+  Points points;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double angle = 2 * std::numbers::pi * static_cast<double>(i) / static_cast<double>(n);
+    points.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return points;
+}
+
+// --- Removal ---
+
+TEST(Removal, LeavesTheOtherConstraintOfASharedEdge) {
+  expect_removable_in_every_order({{{{0, 0}, {4, 0}, {4, 4}}, closed},
+                                   {{{0, 0}, {4, 0}, {2, -3}}, closed},
+                                   {{{4, 0}, {0, 0}}, open}});
+}
+
+TEST(Removal, HealsAnEdgeThatWasSplitByACrossing) {
+  Triangulation mesh;
+  const auto line = mesh.insert(Points{{0, 0}, {4, 0}}, open);
+  const auto across = mesh.insert(Points{{2, -1}, {2, 1}, {3, 1}, {3, -1}}, open);
+  EXPECT_EQ(mesh.pieces(line).size(), 3U);
+  mesh.remove(across);
+  EXPECT_EQ(mesh.pieces(line).size(), 1U);
+  EXPECT_EQ(mesh.vertex_count(), 2U);
+  expect_picture(mesh, {line}, {{{{0, 0}, {4, 0}}, open}});
+}
+
+TEST(Removal, HealsAnEdgeThatEndedOnAnother) {
+  Triangulation mesh;
+  const auto line = mesh.insert(Points{{0, 0}, {4, 0}}, open);
+  const auto post = mesh.insert(Points{{2, 0}, {2, 3}}, open);
+  EXPECT_EQ(mesh.pieces(line).size(), 2U);
+  mesh.remove(post);
+  EXPECT_EQ(mesh.pieces(line).size(), 1U);
+  expect_picture(mesh, {line}, {{{{0, 0}, {4, 0}}, open}});
+}
+
+TEST(Removal, LeavesAVertexThatSomeoneElseHasOnTheLine) {
+  expect_removable_in_every_order({{{{0, 0}, {4, 0}}, open},
+                                   {{{2, 0}}, open},
+                                   {{{2, 0}, {3, 3}}, open},
+                                   {{{2, -2}, {2, 2}}, open}});
+}
+
+TEST(Removal, OfCrossingConstraintsLeavesTheCrossingsOfTheOthers) {
+  expect_removable_in_every_order({{{{0, 0}, {6, 6}}, open},
+                                   {{{0, 6}, {6, 0}}, open},
+                                   {{{3, 0}, {3, 6}}, open},
+                                   {{{0, 2}, {6, 3}}, open}});
+}
+
+TEST(Removal, HealsWhereRoundingBentTheLine) {
+  // (1/3, 1/3) and the like are no doubles: both lines are bent there while both are.
+  expect_removable_in_every_order({{{{0, 0}, {1, 1}}, open},
+                                   {{{0, 1}, {1, -1}}, open},
+                                   {{{0, 0.5}, {1, 0}}, open},
+                                   {{{0.25, 0.25}}, open}});
+}
+
+TEST(Removal, OfOverlappingPolylinesInEveryOrder) {
+  expect_removable_in_every_order({{{{1, 0}, {4, 0}}, open},
+                                   {{{2, 0}, {3, 0}}, open},
+                                   {{{6, 0}, {0, 0}}, open},
+                                   {{{3, 0}, {5, 0}, {5, 2}, {2.5, 0}}, closed}});
+}
+
+TEST(Removal, OfASelfCrossingPolyline) {
+  expect_removable_in_every_order(
+      {{{{0, 0}, {6, 0}, {1, 4}, {3, -2}, {5, 4}}, closed}, {{{0, 1}, {6, 1}}, open}});
+}
+
+TEST(Removal, OfSpikesThatGoOutAndBack) {
+  expect_removable_in_every_order({{{{0, 0}, {4, 0}, {0, 0}}, open},
+                                   {{{4, 0}, {0, 0}, {4, 0}, {2, 0}, {2, 3}}, open},
+                                   {{{2, 0}, {2, 3}, {2, 0}}, closed}});
+}
+
+TEST(Removal, OfASpikeOverAnEdgeThatIsNotDelaunay) {
+  expect_removable_in_every_order({{{{0, 0}, {10, 0}, {0, 0}, {0, 5}}, open},
+                                   {{{5, 0.1}}, open},
+                                   {{{5, -0.1}}, open},
+                                   {{{-1, -1}, {12, -1}, {12, 6}, {-1, 6}}, closed}});
+}
+
+TEST(Removal, OfOneOfTwoEqualPolylinesLeavesTheOther) {
+  const Points points{{0, 0}, {4, 1}, {2, 5}};
+  expect_removable_in_every_order({{points, closed}, {points, closed}, {points, open}});
+
+  Triangulation mesh;
+  const auto one = mesh.insert(points, closed);
+  const auto other = mesh.insert(points, closed);
+  const EdgeId side = mesh.pieces(one).front();
+  EXPECT_EQ(mesh.constraints(side), (std::vector{one, other}));
+  mesh.remove(one);
+  EXPECT_FALSE(mesh.is_constraint(one));
+  EXPECT_EQ(mesh.constraints(mesh.pieces(other).front()), std::vector{other});
+}
+
+TEST(Removal, OfPointsGivenTwiceInARow) {
+  expect_removable_in_every_order({{{{0, 0}, {0, 0}, {3, 0}, {3, 0}}, closed},
+                                   {{{3, 0}, {3, 0}}, open},
+                                   {{{1, 0}, {1, 0}, {1, 0}}, closed}});
+}
+
+TEST(Removal, DownToNothingAndUpAgain) {
+  Triangulation mesh;
+  for (int round = 0; round < 3; ++round) {
+    const auto square = mesh.insert(Points{{0, 0}, {2, 0}, {2, 2}, {0, 2}}, closed);
+    const auto point = mesh.insert(Points{{1, 1}}, open);
+    EXPECT_EQ(mesh.vertex_count(), 5U);
+    mesh.remove(square);
+    EXPECT_EQ(mesh.vertex_count(), 1U);
+    EXPECT_EQ(first_finding(mesh), "");
+    mesh.remove(point);
+    EXPECT_EQ(mesh.vertex_count(), 0U);
+    EXPECT_EQ(mesh.triangle_count(), 0U);
+    EXPECT_EQ(mesh.constraint_count(), 0U);
+    EXPECT_EQ(mesh.locate({1, 1}).kind, Location::Kind::nowhere);
+    EXPECT_EQ(first_finding(mesh), "");
+  }
+}
+
+TEST(Removal, OfHullVertices) {
+  std::vector<Outline> outlines;
+  for (const Point p : Points{{0, 0}, {4, 0}, {5, 3}, {-1, 2}}) outlines.push_back({{p}, open});
+  expect_removable_in_every_order(outlines);
+  outlines.push_back({{{0, 0}, {5, 3}}, open});
+  expect_removable_in_every_order(outlines);
+}
+
+TEST(Removal, WhileAllPointsAreInOneLine) {
+  expect_removable_in_every_order(
+      {{{{0, 0}, {6, 3}}, open}, {{{2, 1}}, open}, {{{8, 4}}, open}, {{{4, 2}, {-2, -1}}, open}});
+}
+
+TEST(Removal, OfTheOnlyPointBesideALine) {
+  expect_removable_in_every_order(
+      {{{{0, 0}, {6, 0}}, open}, {{{2, 0}}, open}, {{{3, 5}}, open}, {{{3, -5}}, open}});
+}
+
+TEST(Removal, OfTheHubOfAWheelOfAThousandSpokes) {
+  constexpr std::size_t spokes = 1000;
+  const Points rim = ring(spokes, 1);
+  Points wheel;
+  for (const Point p : rim) wheel.insert(wheel.end(), {{0, 0}, p});
+  Triangulation mesh;
+  const auto tyre = mesh.insert(rim, closed);
+  const auto hub = mesh.insert(wheel, open);
+  EXPECT_EQ(mesh.constraints(vertex_at(mesh, {0, 0})), std::vector{hub});
+  mesh.remove(hub);
+  expect_picture(mesh, {tyre}, {{rim, closed}});
+
+  const VertexId axle = mesh.insert({0, 0});
+  mesh.remove(axle);
+  expect_picture(mesh, {tyre}, {{rim, closed}});
+}
+
+TEST(Removal, OfAFreeVertexOfEveryDegree) {
+  for (std::size_t degree = 3; degree <= 40; ++degree) {
+    const Points rim = ring(degree, 1);
+    Triangulation mesh;
+    const auto tyre = mesh.insert(rim, closed);
+    const VertexId axle = mesh.insert({0.01, 0.02});
+    mesh.remove(axle);
+    EXPECT_FALSE(mesh.is_vertex(axle));
+    expect_picture(mesh, {tyre}, {{rim, closed}});
+  }
+}
+
+TEST(Removal, LeavesAFreeVertexOnTheLine) {
+  Triangulation mesh;
+  const VertexId before = mesh.insert({2, 0});
+  const auto line = mesh.insert(Points{{0, 0}, {4, 0}}, open);
+  EXPECT_THROW(mesh.remove(before), std::invalid_argument);
+  EXPECT_EQ(mesh.pieces(line).size(), 2U);
+  mesh.remove(line);
+  EXPECT_EQ(mesh.vertex_count(), 1U);
+  EXPECT_TRUE(mesh.is_vertex(before));
+  mesh.remove(before);
+  EXPECT_EQ(mesh.vertex_count(), 0U);
+}
+
+TEST(Removal, OfVerticesInEveryOrderLeavesTheDelaunayTriangulation) {
+  const Points points{{0, 0}, {3, 1}, {1, 3}, {2, 2}, {5, 2}};
+  std::vector<std::size_t> order(points.size());
+  std::iota(order.begin(), order.end(), 0U);
+  do {
+    Triangulation mesh;
+    std::vector<VertexId> vertices;
+    for (const Point p : points) vertices.push_back(mesh.insert(p));
+    std::vector<Outline> left;
+    for (const std::size_t i : order) left.push_back({{points[i]}, open});
+    for (const std::size_t i : order) {
+      mesh.remove(vertices[i]);
+      left.erase(left.begin());
+      EXPECT_EQ(first_finding(mesh), "");
+      EXPECT_EQ(difference(picture_of(mesh, {}), Reference(left).picture()), "");
+    }
+  } while (std::ranges::next_permutation(order).found);
+}
+
+// --- Moves ---
+
+TEST(Moving, IsRemovingAndInsertingUnderTheSameId) {
+  Triangulation mesh;
+  const auto frame = mesh.insert(Points{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed);
+  const auto guest = mesh.insert(Points{{1, 1}, {3, 1}, {2, 3}}, closed);
+  const Points elsewhere{{6, 4}, {10, 4}, {10, 6}, {6, 6}, {7, 5}};
+  mesh.move(guest, elsewhere);
+  EXPECT_TRUE(mesh.is_constraint(guest));
+  EXPECT_EQ(mesh.points(guest), elsewhere);
+  EXPECT_EQ(mesh.ends(guest), closed);
+  expect_picture(mesh, {frame, guest},
+                 {{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed}, {elsewhere, closed}});
+  mesh.move(guest, Points{{5, 5}});
+  expect_picture(mesh, {frame, guest},
+                 {{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed}, {{{5, 5}}, closed}});
+}
+
+TEST(Moving, TranslatesEveryPoint) {
+  Triangulation mesh;
+  const auto frame = mesh.insert(Points{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed);
+  Points points = ring(6, 1.5, {2, 2});
+  const auto guest = mesh.insert(points, closed);
+  for (int step = 0; step < 40; ++step) {
+    mesh.translate(guest, {0.21, 0.17});
+    for (Point& p : points) p = {p.x + 0.21, p.y + 0.17};
+    EXPECT_EQ(mesh.points(guest), points);
+    expect_picture(mesh, {frame, guest},
+                   {{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed}, {points, closed}});
+  }
+}
+
+TEST(Moving, OntoItselfChangesNothing) {
+  expect_right(
+      "insert 1 closed 0 0 4 0 4 4\ninsert 2 open 1 -1 1 5\nmove 1 0 0 4 0 4 4\n"
+      "translate 1 0 0\ntranslate 2 0 0\n");
+}
+
+TEST(Moving, AlongItsOwnLine) {
+  expect_right(
+      "insert 1 open 0 0 8 0\ninsert 2 open 1 0 3 0\ntranslate 2 1 0\ntranslate 2 3 0\n"
+      "translate 2 3 0\ntranslate 2 -12 0\nmove 2 0 0 8 0\nmove 2 8 0 0 0\n");
+}
+
+TEST(Moving, OntoAnotherConstraintAndOff) {
+  expect_right(
+      "insert 1 closed 0 0 4 0 2 3\ninsert 2 closed 1 1 5 1 3 4\ntranslate 2 -1 -1\n"
+      "translate 2 0 1\ntranslate 1 0 1\nremove 1\n");
+}
+
+TEST(Moving, AHullCornerInwardsAndOut) {
+  expect_right(
+      "insert 1 closed 0 0 6 0 6 6 0 6\ninsert 2 open 9 3\ntranslate 2 -6 0\n"
+      "translate 2 -8 0\ntranslate 2 2 0\nmove 2 3 0\nmove 2 3 -1\n");
+}
+
+TEST(Moving, OfEverythingIntoOneLineAndBack) {
+  expect_right(
+      "insert 1 open 0 0 2 1\ninsert 2 open 0 2 4 4\nmove 2 4 2 6 3\nmove 1 8 4 6 3\n"
+      "move 2 0 5 1 1\nremove 1\nremove 2\n");
+}
+
+// --- Bulk insertion ---
+
+TEST(BulkInsertion, GivesWhatOneByOneGives) {
+  for (const Ground ground : {Ground::grid_8, Ground::decimals}) {
+    Constraints constraints;
+    for (const Edit& edit : random_script(7, ground, 60, 25)) carry_out(edit, constraints);
+    std::vector<Outline> outlines;
+    for (const auto& [name, outline] : constraints) outlines.push_back(outline);
+    std::vector<Polyline> polylines;
+    for (const auto& [points, ends] : outlines) polylines.push_back({points, ends});
+    Triangulation mesh;
+    const std::vector<ConstraintId> ids = mesh.insert(polylines);
+    ASSERT_EQ(ids.size(), outlines.size());
+    for (std::size_t i = 0; i < ids.size(); ++i) EXPECT_EQ(mesh.points(ids[i]), outlines[i].points);
+    expect_picture(mesh, ids, outlines);
+  }
+}
+
+TEST(BulkInsertion, AddsToWhatIsThere) {
+  Triangulation mesh;
+  const auto frame = mesh.insert(Points{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed);
+  const Points one{{-1, 1}, {9, 1}};
+  const Points other{{1, -1}, {1, 9}};
+  const auto ids = mesh.insert(std::vector<Polyline>{{one, open}, {other, open}});
+  ASSERT_EQ(ids.size(), 2U);
+  expect_picture(mesh, {frame, ids[0], ids[1]},
+                 {{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed}, {one, open}, {other, open}});
+  EXPECT_TRUE(mesh.insert(std::vector<Polyline>{}).empty());
+}
+
+// --- Promises about ids, failures, changes, copies, memory ---
+
+TEST(Ids, ThatAreUnknownAreRefused) {
+  Triangulation mesh;
+  const auto gone = mesh.insert(Points{{0, 0}, {4, 0}, {2, 3}}, closed);
+  const auto there = mesh.insert(Points{{1, 1}, {5, 5}}, open);
+  mesh.remove(gone);
+  for (const ConstraintId id : {gone, ConstraintId(99), ConstraintId::none()}) {
+    EXPECT_FALSE(mesh.is_constraint(id));
+    EXPECT_THROW(mesh.remove(id), std::invalid_argument);
+    EXPECT_THROW(mesh.move(id, Points{{0, 0}}), std::invalid_argument);
+    EXPECT_THROW(mesh.translate(id, {1, 1}), std::invalid_argument);
+  }
+  const VertexId end = vertex_at(mesh, {1, 1});
+  for (const VertexId id : {end, Triangulation::infinite, VertexId(99), VertexId::none()})
+    EXPECT_THROW(mesh.remove(id), std::invalid_argument);
+  expect_picture(mesh, {there}, {{{{1, 1}, {5, 5}}, open}});
+}
+
+TEST(Ids, OfWhatIsRemovedAreUsedAgain) {
+  Triangulation mesh;
+  const Points points{{0, 0}, {4, 0}, {2, 3}};
+  mesh.insert(Points{{-9, -9}, {9, -9}, {0, 9}}, closed);
+  auto guest = mesh.insert(points, closed);
+  const std::array bounds{mesh.constraint_bound(), mesh.segment_bound(), mesh.vertex_bound(),
+                          mesh.triangle_bound()};
+  for (int round = 0; round < 10; ++round) {
+    mesh.remove(guest);
+    guest = mesh.insert(points, closed);
+    EXPECT_EQ((std::array{mesh.constraint_bound(), mesh.segment_bound(), mesh.vertex_bound(),
+                          mesh.triangle_bound()}),
+              bounds);
+  }
+}
+
+TEST(Ids, OfTheLivingAreCounted) {
+  Triangulation mesh;
+  const auto one = mesh.insert(ring(7, 1), closed);
+  mesh.insert(ring(5, 2), closed);
+  mesh.remove(one);
+  std::size_t vertices = 0;
+  std::size_t triangles = 0;
+  std::size_t constraints = 0;
+  for (std::uint32_t v = 1; v < mesh.vertex_bound(); ++v) vertices += mesh.is_vertex(VertexId(v));
+  for (std::uint32_t t = 0; t < mesh.triangle_bound(); ++t)
+    triangles += mesh.is_triangle(TriangleId(t));
+  for (std::uint32_t c = 0; c < mesh.constraint_bound(); ++c)
+    constraints += mesh.is_constraint(ConstraintId(c));
+  EXPECT_EQ(vertices, 5U);
+  EXPECT_EQ(mesh.vertex_count(), vertices);
+  EXPECT_EQ(mesh.triangle_count(), triangles);
+  EXPECT_EQ(mesh.constraint_count(), constraints);
+  EXPECT_EQ(mesh.edge_bound(), 3 * mesh.triangle_bound());
+}
+
+TEST(Constraints, OfAVertexAreThoseThatEndThereOrPassThrough) {
+  Triangulation mesh;
+  const auto through = mesh.insert(Points{{0, 0}, {4, 0}}, open);
+  const auto ending = mesh.insert(Points{{2, 0}, {2, 3}}, open);
+  const auto point = mesh.insert(Points{{2, 0}}, open);
+  const auto beside = mesh.insert(Points{{0, 1}, {1, 1}}, open);
+  EXPECT_EQ(mesh.constraints(vertex_at(mesh, {2, 0})), (std::vector{through, ending, point}));
+  EXPECT_EQ(mesh.constraints(vertex_at(mesh, {0, 1})), std::vector{beside});
+  EXPECT_EQ(mesh.constraints(vertex_at(mesh, {2, 3})), std::vector{ending});
+}
+
+TEST(FailedEdits, LeaveEverythingAsItWas) {
+  const std::vector<Outline> outlines{{ring(9, 3), closed}, {{{-4, 0}, {4, 1}}, open}};
+  Triangulation mesh;
+  const auto one = mesh.insert(outlines[0].points, closed);
+  const auto other = mesh.insert(outlines[1].points, open);
+  const Points far{{0, 0}, {1e76, 0}};
+  EXPECT_THROW(mesh.move(one, Points{}), std::invalid_argument);
+  EXPECT_THROW(mesh.move(one, Points{{0, 0}, {1, nan}}), std::invalid_argument);
+  EXPECT_THROW(mesh.move(one, far), std::invalid_argument);
+  EXPECT_THROW(mesh.translate(one, {nan, 0}), std::invalid_argument);
+  EXPECT_THROW(mesh.translate(one, {0, 1e76}), std::invalid_argument);
+  EXPECT_THROW(mesh.insert(Point{nan, 0}), std::invalid_argument);
+  const Points good{{0, 0}, {5, 5}};
+  EXPECT_THROW(mesh.insert(std::vector<Polyline>{{good, open}, {far, open}}),
+               std::invalid_argument);
+  EXPECT_THROW(mesh.insert(std::vector<Polyline>{{good, open}, {{}, open}}), std::invalid_argument);
+  EXPECT_EQ(mesh.constraint_count(), 2U);
+  expect_picture(mesh, {one, other}, outlines);
+}
+
+/// Keeps its own copy of the finite triangles by what changes() says alone.
+class Follower {
+ public:
+  void follow(const Triangulation& mesh) {
+    for (const TriangleId t : mesh.changes().unmade) triangles_.erase(t);
+    for (const TriangleId t : mesh.changes().made) {
+      const EdgeId e = Triangulation::edge(t);
+      if (!mesh.is_infinite(t))
+        triangles_[t] = {mesh.point(mesh.from(e)), mesh.point(mesh.to(e)),
+                         mesh.point(mesh.apex(e))};
+    }
+  }
+
+  [[nodiscard]] std::vector<Corners> triangles() const {
+    std::vector<Corners> triangles;
+    for (auto [id, corners] : triangles_) {
+      std::ranges::rotate(corners, std::ranges::min_element(corners));
+      triangles.push_back(corners);
+    }
+    std::ranges::sort(triangles);
+    return triangles;
+  }
+
+ private:
+  std::map<TriangleId, Corners> triangles_;
+};
+
+TEST(Changes, TellAFollowerEverything) {
+  for (const Ground ground : {Ground::grid_4, Ground::grid_8, Ground::decimals}) {
+    Triangulation mesh;
+    mesh.record_changes(true);
+    Follower follower;
+    std::map<std::size_t, ConstraintId> ids;
+    for (const Edit& edit : random_script(3, ground, 120, 6)) {
+      if (edit.kind == Edit::Kind::insert)
+        ids[edit.name] = mesh.insert(edit.outline.points, edit.outline.ends);
+      if (edit.kind == Edit::Kind::remove) mesh.remove(ids.at(edit.name));
+      if (edit.kind == Edit::Kind::move) mesh.move(ids.at(edit.name), edit.outline.points);
+      if (edit.kind == Edit::Kind::translate) mesh.translate(ids.at(edit.name), edit.by);
+      if (edit.kind == Edit::Kind::remove) ids.erase(edit.name);
+      follower.follow(mesh);
+      std::vector<ConstraintId> living;
+      for (const auto& [name, id] : ids) living.push_back(id);
+      ASSERT_EQ(follower.triangles(), picture_of(mesh, living).triangles) << name_of(ground);
+    }
+  }
+}
+
+TEST(Changes, OfASmallEditAreFew) {
+  Triangulation mesh;
+  mesh.insert(ring(1000, 100), closed);
+  const auto guest = mesh.insert(ring(5, 0.5, {99, 0}), closed);
+  mesh.record_changes(true);
+  mesh.translate(guest, {0.01, 0});
+  EXPECT_FALSE(mesh.changes().made.empty());
+  EXPECT_LT(mesh.changes().made.size() + mesh.changes().unmade.size(), 1000U);
+}
+
+TEST(Copies, AreIndependent) {
+  const Outline frame{{{0, 0}, {8, 0}, {8, 8}, {0, 8}}, closed};
+  const Outline guest{{{1, 1}, {9, 1}, {2, 3}}, closed};
+  Triangulation mesh;
+  const auto first = mesh.insert(frame.points, closed);
+  const auto second = mesh.insert(guest.points, closed);
+  Triangulation copy = mesh;
+  copy.remove(first);
+  expect_picture(mesh, {first, second}, {frame, guest});
+  expect_picture(copy, {second}, {guest});
+  mesh.translate(second, {3, 3});
+  expect_picture(copy, {second}, {guest});
+  copy = mesh;
+  mesh.remove(second);
+  mesh.remove(first);
+  expect_picture(copy, {first, second}, {frame, {{{4, 4}, {12, 4}, {5, 6}}, closed}});
+}
+
+TEST(Epsilon, MakesNearPointsOne) {
+  Triangulation mesh(0.1);
+  EXPECT_EQ(mesh.epsilon(), 0.1);
+  EXPECT_EQ(Triangulation().epsilon(), 0);
+  const VertexId one = mesh.insert({0, 0});
+  EXPECT_EQ(mesh.insert({0.05, 0.05}), one);
+  EXPECT_NE(mesh.insert({0.2, 0}), one);
+  EXPECT_EQ(mesh.vertex_count(), 2U);
+}
+
+TEST(Epsilon, DrawsPointsOntoSegmentsNearby) {
+  Triangulation mesh(0.1);
+  const auto line = mesh.insert(Points{{0, 0}, {4, 0}}, open);
+  const auto point = mesh.insert(Points{{2, 0.05}}, open);
+  EXPECT_EQ(mesh.vertex_count(), 3U);
+  EXPECT_EQ(mesh.pieces(line).size(), 2U);
+  EXPECT_EQ(first_finding(mesh), "");
+  mesh.remove(point);
+  EXPECT_EQ(mesh.vertex_count(), 2U);
+  EXPECT_EQ(mesh.pieces(line).size(), 1U);
+}
+
+TEST(Epsilon, StaysValidWhateverIsEdited) {
+  for (const Ground ground : all_grounds) {
+    Triangulation mesh(1e-3);
+    std::map<std::size_t, ConstraintId> ids;
+    for (const Edit& edit : random_script(5, ground, 150, 8)) {
+      if (edit.kind == Edit::Kind::insert)
+        ids[edit.name] = mesh.insert(edit.outline.points, edit.outline.ends);
+      if (edit.kind == Edit::Kind::remove) mesh.remove(ids.at(edit.name));
+      if (edit.kind == Edit::Kind::move) mesh.move(ids.at(edit.name), edit.outline.points);
+      if (edit.kind == Edit::Kind::translate) mesh.translate(ids.at(edit.name), edit.by);
+      ASSERT_EQ(first_finding(mesh), "") << name_of(ground);
+    }
+  }
+}
+
+TEST(Memory, IsNotAllocatedOnceTheWorkIsKnown) {
+  Triangulation mesh;
+  mesh.insert(ring(200, 10), closed);
+  mesh.insert(ring(150, 10.1, {0.3, 0.2}), closed);
+  const Points here = ring(20, 3, {6, 0});
+  const Points there = ring(20, 3, {-6, 1});
+  const auto walker = mesh.insert(here, closed);
+  const auto slider = mesh.insert(Points{{-12, -1}, {12, -1.5}}, open);
+  const auto round_trip = [&] {
+    mesh.move(walker, there);
+    mesh.move(walker, here);
+    mesh.translate(slider, {0, 2});
+    mesh.translate(slider, {0, -2});
+  };
+  for (int warm_up = 0; warm_up < 20; ++warm_up) round_trip();
+  const std::size_t before = allocation_count();
+  for (int i = 0; i < 250; ++i) round_trip();
+  EXPECT_EQ(allocation_count() - before, 0U);
+  EXPECT_EQ(first_finding(mesh), "");
+}
+
+TEST(Snaps, GoWithTheSegmentsThatMadeThem) {
+  Triangulation mesh;
+  std::vector<ConstraintId> ids;
+  Constraints constraints;
+  for (const Edit& edit : random_script(11, Ground::nearly_equal, 60, 20))
+    carry_out(edit, constraints);
+  for (const auto& [name, outline] : constraints)
+    ids.push_back(mesh.insert(outline.points, outline.ends));
+  for (const Snap& snap : mesh.snaps()) EXPECT_TRUE(mesh.is_segment(snap.segment));
+  for (const ConstraintId id : ids) mesh.remove(id);
+  EXPECT_TRUE(mesh.snaps().empty());
+}
+
+}  // namespace
+}  // namespace loft::cdt

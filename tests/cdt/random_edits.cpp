@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+#include "tests/cdt/random_edits.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+namespace loft::cdt {
+
+namespace {
+
+class Author {
+ public:
+  Author(std::uint64_t seed, Ground ground, std::size_t population)
+      : random_(seed), ground_(ground), population_(population) {}
+
+  [[nodiscard]] Edit next() {
+    Edit edit = constraints_.empty() || below(2 * population_) >= constraints_.size() + below(2)
+                    ? insertion_or_change()
+                    : Edit{Edit::Kind::remove, chosen(), {}, {}};
+    carry_out(edit, constraints_);
+    return edit;
+  }
+
+ private:
+  [[nodiscard]] std::size_t below(std::size_t n) { return random_() % n; }
+  [[nodiscard]] double number_below(std::size_t n) { return static_cast<double>(below(n)); }
+
+  [[nodiscard]] std::size_t chosen() {
+    return std::next(constraints_.begin(), static_cast<std::ptrdiff_t>(below(constraints_.size())))
+        ->first;
+  }
+
+  [[nodiscard]] Edit insertion_or_change() {
+    if (constraints_.empty() || below(2) == 0)
+      return {Edit::Kind::insert, next_name_++, outline(), {}};
+    const std::size_t name = chosen();
+    if (below(2) == 0) return {Edit::Kind::translate, name, {}, stride()};
+    return {Edit::Kind::move, name, {changed(constraints_.at(name)), open}, {}};
+  }
+
+  /// Some or all points elsewhere, or others altogether.
+  [[nodiscard]] std::vector<Point> changed(const Outline& before) {
+    if (below(3) == 0) return outline().points;
+    std::vector<Point> points = before.points;
+    for (Point& p : points)
+      if (below(2) == 0) p = point();
+    return points;
+  }
+
+  [[nodiscard]] Point point() {
+    switch (ground_) {
+      case Ground::grid_8:
+        return {number_below(8), number_below(8)};
+      case Ground::grid_4:
+        return {number_below(4), number_below(4)};
+      case Ground::decimals:
+        return {number_below(1000) / 1000, number_below(1000) / 1000};
+      case Ground::near_parallel:
+        return {number_below(2), number_below(1000) * 1e-9};
+      case Ground::far_from_origin:
+        return {5e6 + number_below(100) / 7, 4e7 + number_below(100) / 7};
+      case Ground::nearly_equal:
+        break;
+    }
+    const auto coordinate = [&] { return number_below(3) + number_below(1000) * 1e-16; };
+    const double x = coordinate();
+    return {x, coordinate()};
+  }
+
+  /// How far a translation goes.
+  [[nodiscard]] Point stride() {
+    const Point from = point();
+    const Point to = point();
+    const Point all{to.x - from.x, to.y - from.y};
+    if (is_grid(ground_)) return {std::round(all.x / 2) + 0.0, std::round(all.y / 2) + 0.0};
+    return below(2) == 0 ? Point{all.x / 2, all.y / 2} : Point{all.x / 1024, all.y / 1024};
+  }
+
+  [[nodiscard]] Outline outline() {
+    switch (below(9)) {
+      case 0:
+        return {{point()}, open};
+      case 1:
+        return spike();
+      case 2:
+        return out_and_back();
+      case 3:
+        return star();
+      case 4:
+        return rectangle();
+      case 5:
+        if (!constraints_.empty()) return copy();
+        break;
+      case 6:
+        return {{point(), point()}, open};
+      default:
+        break;
+    }
+    return polyline();
+  }
+
+  [[nodiscard]] Outline polyline() {
+    Outline outline{{}, below(2) == 0 ? open : closed};
+    for (std::size_t n = 2 + below(6); n > 0; --n) outline.points.push_back(point());
+    return outline;
+  }
+
+  /// Out and back over the same edge, then on.
+  [[nodiscard]] Outline spike() {
+    const Point base = point();
+    return {{base, point(), base, point()}, below(2) == 0 ? open : closed};
+  }
+
+  [[nodiscard]] Outline out_and_back() {
+    Outline outline = polyline();
+    outline.points.insert(outline.points.end(), outline.points.rbegin(), outline.points.rend());
+    return outline;
+  }
+
+  /// Five or seven points, joined across.
+  [[nodiscard]] Outline star() {
+    const Point centre = point();
+    const Point rim = point();
+    const double radius = std::hypot(rim.x - centre.x, rim.y - centre.y);
+    const std::size_t corners = 5 + 2 * below(2);
+    Outline outline{{}, closed};
+    for (std::size_t i = 0; i < corners; ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i * (corners / 2)) /
+                           static_cast<double>(corners);
+      Point p{centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)};
+      if (is_grid(ground_)) p = {std::round(p.x) + 0.0, std::round(p.y) + 0.0};
+      outline.points.push_back(p);
+    }
+    return outline;
+  }
+
+  [[nodiscard]] Outline rectangle() {
+    const Point a = point();
+    const Point b = point();
+    return {{a, {b.x, a.y}, b, {a.x, b.y}}, closed};
+  }
+
+  /// The same again, or backwards.
+  [[nodiscard]] Outline copy() {
+    Outline outline = constraints_.at(chosen());
+    if (below(2) == 0) std::ranges::reverse(outline.points);
+    return outline;
+  }
+
+  std::mt19937_64 random_;
+  Ground ground_;
+  std::size_t population_;
+  std::size_t next_name_ = 0;
+  Constraints constraints_;
+};
+
+}  // namespace
+
+const char* name_of(Ground ground) {
+  constexpr const char* names[] = {"8x8 grid",      "4x4 grid",        "decimals",
+                                   "near-parallel", "far from origin", "nearly equal"};
+  return names[static_cast<std::size_t>(ground)];
+}
+
+Script random_script(std::uint64_t seed, Ground ground, std::size_t edits, std::size_t population) {
+  Author author(seed, ground, population);
+  Script script;
+  script.reserve(edits);
+  while (script.size() < edits) script.push_back(author.next());
+  return script;
+}
+
+}  // namespace loft::cdt
