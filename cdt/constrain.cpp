@@ -65,9 +65,11 @@ void Triangulation::lay(SegmentId s) {
     }
     const bool is_crossing = uses_[at.index()] == 0 || uses_[ahead.index()] == 0;
     if (is_crossing) doubt_beside(at, ahead, s);
-    if (ahead != segment.to && uses_[ahead.index()] == 0 && orient(a, b, point(ahead)) == 0 &&
-        obstacle.kind != Obstacle::Kind::constrained_edge)
-      doubt(s, point(ahead));  // a crossing of others that rounding put on this line
+    if (ahead != segment.to && uses_[ahead.index()] == 0 &&
+        obstacle.kind != Obstacle::Kind::constrained_edge) {
+      gather_segments(ahead);
+      if (!is_rightly_on(s, ahead)) doubt(s, point(ahead));  // put here by rounding alone
+    }
     at = ahead;
   }
 }
@@ -110,18 +112,7 @@ VertexId Triangulation::meet(EdgeId e, SegmentId s) {
     for (const Passage passage : passages(e)) doubt(passage.segment(), *place);
     doubt(s, *place);
   }
-  return split_at_crossing(e, *place);
-}
-
-VertexId Triangulation::split_at_crossing(EdgeId e, Point place) {
-  const bool is_straight = orient(point(from(e)), point(to(e)), place) == 0;
-  const VertexId v = new_vertex(place);
-  split_edge(e, v);
-  if (!is_straight) {
-    push_star(v);
-    restore_delaunay();
-  }
-  return v;
+  return split_edge_at(e, *place);
 }
 
 /// Makes and marks the straight edge between two vertices if nothing is between them.
@@ -257,7 +248,7 @@ VertexId Triangulation::cross(EdgeId e, SegmentId s) {
   for (const VertexId end : {from(e), to(e)})
     if (distance(point(end), *place) <= epsilon_) return end;
   if (!can_split(e, *place)) return snap(e, *place, s);
-  return split_at_crossing(e, *place);
+  return split_edge_at(e, *place);
 }
 
 /// Where s crosses the segment that e is a piece of. Of several such segments that the

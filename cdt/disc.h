@@ -9,7 +9,7 @@
 
 namespace loft::cdt {
 
-/// Calls visit(triangle) for the finite triangles that come as near to p as radius(), which may
+/// Calls visit(triangle) for the triangles, infinite ones included, that come as near to p as radius(), which may
 /// shrink on the way, from `place`, where p is, outwards. Cost: in their number.
 template <class Radius, class Visit>
 void visit_disc(const Triangulation& mesh, Location place, Point p, Radius radius, Visit visit) {
@@ -25,7 +25,7 @@ void visit_disc(const Triangulation& mesh, Location place, Point p, Radius radiu
     if (!seen.insert(t).second) return;
     for (const EdgeId side : {e, Triangulation::next(e), Triangulation::prev(e)})
       front.push_back(side);
-    if (!mesh.is_infinite(t)) visit(t);
+    visit(t);
   };
   // Beyond the hull, first along it to where it is nearest.
   EdgeId start = place.edge;

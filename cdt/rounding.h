@@ -39,13 +39,16 @@ inline constexpr double doubtful_rounding = 16 * detail::rounding;
   return std::abs(p.x - q.x) + std::abs(p.y - q.y) <= doubtful_rounding * reach;
 }
 
-/// Whether p is so near the line ab that rounding a and b may have put it on the wrong side.
+/// Whether p is beside the segment ab, between its ends, and so near that rounding a and b may have
+/// put it on the wrong side.
 [[nodiscard]] inline bool is_hardly_beside(Point a, Point b, Point p, double slack = 1) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   const double area = dx * (p.y - a.y) - dy * (p.x - a.x);
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
-  return std::abs(area) <= slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy));
+  if (std::abs(area) > slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy)))
+    return false;
+  return (p.x - a.x) * dx + (p.y - a.y) * dy > 0 && (p.x - b.x) * dx + (p.y - b.y) * dy < 0;
 }
 
 /// Whether q comes after p on the way from a to b, where both are on that line but for correct

@@ -349,6 +349,7 @@ class Triangulation {
   void extend(EdgeId end_to_infinity, VertexId v);
   void split_triangle(TriangleId t, VertexId v);
   void split_edge(EdgeId e, VertexId v);
+  [[nodiscard]] VertexId split_edge_at(EdgeId e, Point place);
   void fan_out(VertexId v);
   [[nodiscard]] bool can_split(EdgeId e, Point point) const;
   [[nodiscard]] bool should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const;
@@ -372,7 +373,6 @@ class Triangulation {
   void lay_crooked(SegmentId s, VertexId at);
   [[nodiscard]] VertexId cross(EdgeId e, SegmentId s);
   [[nodiscard]] std::optional<Point> crossing_point(EdgeId e, SegmentId s) const;
-  [[nodiscard]] VertexId split_at_crossing(EdgeId e, Point place);
   [[nodiscard]] VertexId snap(EdgeId e, Point place, SegmentId s);
   void reroute(EdgeId e, VertexId through);
   void mark(EdgeId e, SegmentId s);

@@ -140,6 +140,7 @@ VertexId Triangulation::merge(Location& place, Point p) const {
   visit_disc(*this, place, p, [&] { return epsilon_; }, [&](TriangleId t) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = edge(t, corner);
+      if (from(e) == infinite) continue;
       if (const double d = distance(point(from(e)), p); d <= to_vertex) {
         vertex = from(e);
         to_vertex = d;
@@ -158,10 +159,9 @@ VertexId Triangulation::merge(Location& place, Point p) const {
 
 /// A new vertex in a triangle, on an edge or outside.
 VertexId Triangulation::split_at(Location place, Point point) {
+  if (place.kind == Location::Kind::edge) return split_edge_at(place.edge, point);
   const VertexId v = new_vertex(point);
-  if (place.kind == Location::Kind::edge) {
-    split_edge(place.edge, v);
-  } else if (place.kind == Location::Kind::outside && to(place.edge) == infinite) {
+  if (place.kind == Location::Kind::outside && to(place.edge) == infinite) {
     extend(place.edge, v);
   } else {
     if (place.kind == Location::Kind::outside) is_flat_ = false;
@@ -339,6 +339,19 @@ void Triangulation::fan_out(VertexId v) {
     suspects_.push_back(edge(t, 0));
     suspects_.push_back(edge(u, 0));
   }
+}
+
+/// A new vertex on an edge, or so near that it bends it.
+VertexId Triangulation::split_edge_at(EdgeId e, Point place) {
+  const bool is_straight = orient(point(from(e)), point(to(e)), place) == 0;
+  const VertexId v = new_vertex(place);
+  split_edge(e, v);
+  if (!is_straight) {
+    is_flat_ = false;
+    push_star(v);
+    restore_delaunay();
+  }
+  return v;
 }
 
 bool Triangulation::can_split(EdgeId e, Point p) const {
