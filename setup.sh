@@ -3,11 +3,21 @@
 # Installs the Debian packages that loft needs, if any is missing; does nothing otherwise.
 #   sh setup.sh          what the libraries, the program and the samples need
 #   sh setup.sh tests    that, and what the tests need
+#   sh setup.sh fuzz     that, and what fuzzing needs
+#   sh setup.sh bench    what the libraries and the benchmarks need
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libopenmesh-dev libeigen3-dev libtinygltf-dev
   libcli11-dev nlohmann-json3-dev"
-if [ "${1:-}" = tests ]; then
+what=${1:-}
+if [ "$what" = fuzz ]; then
+  packages="$packages clang-16 libclang-rt-16-dev"
+  what=tests
+fi
+if [ "$what" = bench ]; then
+  packages="$packages libbenchmark-dev"
+fi
+if [ "$what" = tests ]; then
   packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16"
   # Node.js often comes from elsewhere than Debian, npm with it.
   command -v npm > /dev/null || packages="$packages nodejs npm ca-certificates"

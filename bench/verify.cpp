@@ -124,8 +124,9 @@ class Coverage {
   /// if there is none. Every step leads on, so that no walk is endless.
   [[nodiscard]] Step next(Step at, Point start, Point ahead, Step goal) const {
     Step nearest{at.vertex, std::numeric_limits<double>::infinity()};
-    const auto leave = [](const Pair& way) { return way[0]; };
-    for (const auto& [from, to] : std::ranges::equal_range(ways_, at.vertex, {}, leave)) {
+    for (auto way = std::ranges::lower_bound(ways_, Pair{at.vertex, 0});
+         way != ways_.end() && way->front() == at.vertex; ++way) {
+      const Index to = way->back();
       if (to == goal.vertex) {
         if (goal.along < nearest.along) nearest = goal;
         continue;
@@ -163,7 +164,7 @@ std::vector<std::array<Point, N>> places(const PlainMesh& mesh,
   for (const auto& shape : shapes) {
     std::array<Point, N>& corners = places.emplace_back();
     std::ranges::transform(shape, corners.begin(), [&](Index v) { return mesh.vertices[v]; });
-    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   }
   std::ranges::sort(places);
   return places;

@@ -485,7 +485,7 @@ class Follower {
   [[nodiscard]] std::vector<Corners> triangles() const {
     std::vector<Corners> triangles;
     for (auto [id, corners] : triangles_) {
-      std::ranges::rotate(corners, std::ranges::min_element(corners));
+      std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
       triangles.push_back(corners);
     }
     std::ranges::sort(triangles);

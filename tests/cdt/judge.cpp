@@ -111,10 +111,13 @@ class Judge {
     const Reference reference(outlines_);
     if (!reference.is_embeddable()) {
       ++tally_.not_embeddable;
-    } else if (is_snapped_) {
+      return "";
+    }
+    std::string words = difference(picture, reference.picture());
+    if (is_snapped_) {
       ++tally_.only_snapped;
+      if (words.empty()) ++tally_.snapped_yet_same;
     } else {
-      std::string words = difference(picture, reference.picture());
       if (!words.empty()) return "not as the reference: " + words;
       ++tally_.same_as_reference;
     }
@@ -156,6 +159,7 @@ Tally& Tally::operator+=(const Tally& other) {
   same_as_reference += other.same_as_reference;
   not_embeddable += other.not_embeddable;
   only_snapped += other.only_snapped;
+  snapped_yet_same += other.snapped_yet_same;
   unexplained += other.unexplained;
   return *this;
 }
@@ -163,7 +167,8 @@ Tally& Tally::operator+=(const Tally& other) {
 std::ostream& operator<<(std::ostream& out, const Tally& tally) {
   return out << tally.edits << " edits; as a fresh triangulation " << tally.same_as_fresh
              << ", as the reference " << tally.same_as_reference << "; excused: not embeddable "
-             << tally.not_embeddable << ", only for a snap " << tally.only_snapped
+             << tally.not_embeddable << ", only for a snap " << tally.only_snapped << " ("
+             << tally.snapped_yet_same << " of them exact)"
              << ", snapped and not explained " << tally.unexplained;
 }
 

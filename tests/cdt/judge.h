@@ -21,9 +21,10 @@ struct Tally {
   std::size_t edits = 0;
   std::size_t same_as_fresh = 0;
   std::size_t same_as_reference = 0;
-  std::size_t not_embeddable = 0;  ///< rounding makes the exact answer impossible
-  std::size_t only_snapped = 0;    ///< it would have been possible, but a snap is reported
-  std::size_t unexplained = 0;     ///< snapped, and too large for the reference
+  std::size_t not_embeddable = 0;    ///< rounding makes the exact answer impossible
+  std::size_t only_snapped = 0;      ///< it would have been possible, but a snap is reported
+  std::size_t snapped_yet_same = 0;  ///< of these: the answer is the exact one all the same
+  std::size_t unexplained = 0;       ///< snapped, and too large for the reference
 
   Tally& operator+=(const Tally& other);
   friend std::ostream& operator<<(std::ostream& out, const Tally& tally);

@@ -38,7 +38,7 @@ Line line_of(const Triangulation& mesh, EdgeId e,
 Corners corners_of(const Triangulation& mesh, TriangleId t) {
   const EdgeId e = Triangulation::edge(t);
   Corners corners{mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), mesh.point(mesh.apex(e))};
-  std::ranges::rotate(corners, std::ranges::min_element(corners));
+  std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   return corners;
 }
 

@@ -162,7 +162,7 @@ class Wrapping {
         front.push_back({to, from});
       }
       Corners& corners = triangles.emplace_back(Corners{at(a), at(b), at(*c)});
-      std::ranges::rotate(corners, std::ranges::min_element(corners));
+      std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
     }
     std::ranges::sort(triangles);
     return triangles;
