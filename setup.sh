@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Installs the Debian packages that loft needs, if any is missing; does nothing otherwise.
-#   sh setup.sh          what the libraries, the program and the samples need
+#   sh setup.sh          what the libraries, the program and most samples need
+#   sh setup.sh npm      that, and npm, which fetches the world map of samples/triangulate.sh
 #   sh setup.sh tests    that, and what the tests need
 set -eu
 
@@ -9,8 +10,10 @@ packages="g++ cmake ninja-build pkg-config libopenmesh-dev libeigen3-dev libtiny
   libcli11-dev nlohmann-json3-dev"
 if [ "${1:-}" = tests ]; then
   packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16"
-  # Node.js often comes from elsewhere than Debian, npm with it.
-  command -v npm > /dev/null || packages="$packages nodejs npm ca-certificates"
+fi
+# Node.js often comes from elsewhere than Debian, npm with it.
+if [ -n "${1:-}" ] && ! command -v npm > /dev/null; then
+  packages="$packages nodejs npm ca-certificates"
 fi
 
 if ! command -v dpkg-query > /dev/null; then
