@@ -235,11 +235,9 @@ void JsonReader::skip() {
   } while (!open.empty());
 }
 
-void JsonReader::end() {
+void JsonReader::end(const char* hint) {
   skip_blanks();
-  if (place_ < text_.size()) {
-    fail("something behind the closing bracket; one value a " + std::string(unit_));
-  }
+  if (place_ < text_.size()) fail(std::string("something behind the closing bracket") + hint);
 }
 
 namespace {

@@ -57,8 +57,8 @@ class JsonReader {
   /// Whether another value of the list comes next; false at the list's end.
   [[nodiscard]] bool next_item();
 
-  /// Checks that only blanks are left.
-  void end();
+  /// Checks that only blanks are left; else the message ends in `hint`.
+  void end(const char* hint = "");
 
   /// The number or word that was read or left out last, as it is written.
   [[nodiscard]] std::string_view last_word() const { return last_word_; }

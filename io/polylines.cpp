@@ -10,6 +10,7 @@
 #include "io/file.h"
 #include "io/polylines_geojson.h"
 #include "io/polylines_text.h"
+#include "io/text.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -33,8 +34,9 @@ std::vector<Polyline> read_standard_input() {
   const std::string name = "standard input";
   const std::string content{std::istreambuf_iterator<char>(std::cin), {}};
   if (std::cin.bad()) throw FileError(Access::read, name, last_cause());
-  const std::size_t first = content.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  const bool is_json = first != std::string::npos && content[first] == '{';
+  std::string_view begin = without_mark(content);
+  begin.remove_prefix(std::min(begin.find_first_not_of(" \t\r\n"), begin.size()));
+  const bool is_json = begin.starts_with('{');
   return is_json ? read_polylines_geojson(content, name) : read_polylines_text(content, name);
 }
 

@@ -17,8 +17,6 @@ namespace loft::io {
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 /// Collections in collections in collections: nobody needs more of that.
 constexpr int deepest_collection = 16;
 
@@ -91,9 +89,8 @@ Members read_members(JsonReader& json) {
 
 class GeoJsonReader {
  public:
-  GeoJsonReader(std::string_view text, std::string_view name) : text_(text), name_(name) {
-    if (text_.starts_with(byte_order_mark)) text_.remove_prefix(byte_order_mark.size());
-  }
+  GeoJsonReader(std::string_view text, std::string_view name)
+      : text_(without_mark(text)), name_(name) {}
 
   std::vector<Polyline> read() {
     try {
@@ -273,7 +270,7 @@ class GeoJsonReader {
       }
     }
     if (count < coordinates.size()) {
-      complain(place(), "has " + std::to_string(count) + " coordinates; [x, y] needs two");
+      complain(place(), "has " + std::to_string(count) + " coordinates instead of [x, y]");
     }
     return {coordinates[0], coordinates[1]};
   }

@@ -109,7 +109,7 @@ class PolylineTextReader {
 }  // namespace
 
 std::vector<Polyline> read_polylines_text(std::string_view text, std::string_view name) {
-  return PolylineTextReader(text, name).read();
+  return PolylineTextReader(without_mark(text), name).read();
 }
 
 void write_polylines_text(std::ostream& out, std::span<const Polyline> polylines) {

@@ -39,7 +39,7 @@ class SliceReader {
     if (json_.peek() != JsonKind::object) return reject("", wanted);
     json_.begin_object();
     while (const auto key = json_.next_key()) read_member(*key);
-    json_.end();
+    json_.end("; one slice a line");
     check_members();
   }
 

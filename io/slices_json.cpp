@@ -17,8 +17,6 @@ namespace loft::io {
 
 namespace {
 
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
 bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
@@ -43,7 +41,7 @@ std::vector<Slice> read_slices_json(std::istream& in, std::string_view name) {
   Problems problems;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
-    if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    if (number == 1) line = without_mark(line);
     if (is_blank(line)) continue;
     SliceLine parsed = parse_slice_line(line);
     const std::string where = place(name, number, slices.size(), parsed);
