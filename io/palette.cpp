@@ -35,8 +35,7 @@ Keys keys_of(const PlanarMesh& mesh) {
   Keys keys;
   for (const PlanarMesh::Region& region : mesh.regions) keys.push_back(region.key);
   std::ranges::sort(keys);
-  const auto repeated = std::ranges::unique(keys);
-  keys.erase(repeated.begin(), repeated.end());
+  keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
   return keys;
 }
 
@@ -55,8 +54,7 @@ std::vector<std::pair<std::size_t, std::size_t>> meetings(const PlanarMesh& mesh
     if (here != there) pairs.emplace_back(here, there);
   }
   std::ranges::sort(pairs);
-  const auto repeated = std::ranges::unique(pairs);
-  pairs.erase(repeated.begin(), repeated.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
 }
 

@@ -225,7 +225,8 @@ std::span<const Piece> PlanarMesh::pieces_along(std::uint32_t a, std::uint32_t b
   const auto [from, to] = std::minmax(a, b);
   const std::span<const Piece> candidates =
       std::span(pieces).subspan(first_piece[from], first_piece[from + 1] - first_piece[from]);
-  const auto [begin, end] = std::ranges::equal_range(candidates, to, {}, &Piece::to);
+  const auto begin = std::ranges::lower_bound(candidates, to, {}, &Piece::to);
+  const auto end = std::ranges::upper_bound(candidates, to, {}, &Piece::to);
   return {begin, end};
 }
 

@@ -140,7 +140,9 @@ class SvgWriter {
       starts.push_back(start);
       for (std::size_t e = start; !is_found[e]; e = next_boundary(e)) is_found[e] = true;
     }
-    std::ranges::stable_sort(starts, {}, [&](std::size_t e) { return mesh_.region_of[e / 3]; });
+    std::ranges::sort(starts, {}, [&](std::size_t e) {
+      return std::pair(mesh_.region_of[e / 3], e);  // the regions' order, else as found
+    });
     return starts;
   }
 
