@@ -103,12 +103,15 @@ CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
-  sub->add_flag("!--no-fill", command.drawing.has_fill, "Leave regions uncoloured (SVG)");
-  sub->add_flag("!--no-edges", command.drawing.has_edges,
-                "Draw only the edges that lie on a polyline (SVG)");
+  sub->add_flag_callback(
+      "--no-fill", [&command] { command.drawing.has_fill = false; },
+      "Leave regions uncoloured (SVG)");
+  sub->add_flag_callback(
+      "--no-edges", [&command] { command.drawing.has_edges = false; },
+      "Draw only the edges that lie on a polyline (SVG)");
   sub->add_option("--width", command.drawing.width, "Width in pixels, default 1200 (SVG)")
       ->type_name("PIXELS")
-      ->check(CLI::Range(10, 100'000));
+      ->check(CLI::Range(10.0, 100'000.0));
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   return sub;

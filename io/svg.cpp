@@ -263,7 +263,7 @@ class SvgWriter {
       paths[hues_.of_constraint[c]].allow_cut();
       paths[hues_.of_constraint[c]].dot(places_[vertices[0]]);
     }
-    begin_group("points", "stroke-width=\"" + rounded(2.5 * line_width_) + '"');
+    begin_group("points", "stroke-width=\"" + rounded(3.5 * line_width_) + '"');
     for (std::size_t hue = 0; hue < hue_count; ++hue)
       paths[hue].write(out_, paint("stroke", dark_tone(hue)));
     end_group();
