@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "io/svg.h"
 #include "reconstruct/options.h"
 
 namespace loft::app {
@@ -36,6 +37,15 @@ struct ReconstructCommand {
   bool quiet = false;
 };
 
+/// `loft triangulate IN... -o OUT ...`
+struct TriangulateCommand {
+  std::vector<std::filesystem::path> inputs;
+  std::vector<std::filesystem::path> outputs;
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
 /// `loft check MESH [--stack STACK]`
 struct CheckCommand {
   std::filesystem::path mesh;
@@ -52,6 +62,7 @@ struct InfoCommand {
 /// Each command prints its results on stdout and its words on stderr. Throws UsageError and
 /// loft::Error; outputs are complete or not there.
 [[nodiscard]] ExitCode run(const ReconstructCommand& command);
+[[nodiscard]] ExitCode run(const TriangulateCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);
 [[nodiscard]] ExitCode run(const InfoCommand& command);
 

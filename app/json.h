@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 
 #include "reconstruct/measure.h"
@@ -14,6 +16,13 @@ using Json = nlohmann::ordered_json;
 /// The report as text; bytes that are not UTF-8 (file names) are replaced.
 inline std::string print(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace);
+}
+
+/// A list of file names.
+inline Json names(std::span<const std::filesystem::path> paths) {
+  Json json = Json::array();
+  for (const auto& path : paths) json.push_back(path.string());
+  return json;
 }
 
 /// vertices, faces, components, genus, area, volume.

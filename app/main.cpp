@@ -10,8 +10,10 @@
 #include "app/unit.h"
 #include "io/file.h"
 #include "io/meshes.h"
+#include "io/polylines.h"
 #include "io/slices.h"
 #include "io/surfaces.h"
+#include "io/triangulations.h"
 #include "io/version.h"
 #include "reconstruct/reconstruct.h"
 
@@ -25,6 +27,7 @@ std::string footer() {
          "  loft reconstruct a.ndjson b.ndjson -o both.ply -o both.glb --unit um --json\n"
          "  loft check skull.ply --stack skull.ndjson\n"
          "  loft info skull.ndjson\n"
+         "  loft triangulate world.geojson -o world.svg\n"
          "\n"
          "Stacks: NDJSON, a slice a line, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}; a "
          "contour\n"
@@ -33,6 +36,11 @@ std::string footer() {
          "label is reconstructed on its own. '-' reads standard input.\n"
          "  stacks " +
          loft::io::slice_extensions() + "; surfaces out " + loft::io::surface_extensions() +
+         "\n"
+         "Polylines: GeoJSON, or text with a line 'n closed' (0 or 1) for each and n lines 'x y'.\n"
+         "  polylines " +
+         loft::io::polyline_extensions() + "; triangulations out " +
+         loft::io::triangulation_extensions() +
          "\n"
          "\n"
          "Exit codes: 0 ok, 1 check failed, 2 usage, 3 bad input, 4 cannot write, 130 "
@@ -85,6 +93,30 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   return sub;
 }
 
+/// Adds `loft triangulate`; the command is ready when the line has been parsed.
+CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "triangulate", "Make the constrained Delaunay triangulation of polylines and polygons");
+  sub->add_option("IN", command.inputs, "Polyline files, or - for standard input")->required();
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, " + loft::io::triangulation_extensions() + "; may be repeated")
+      ->required()
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag_callback(
+      "--no-fill", [&command] { command.drawing.has_fill = false; },
+      "Leave regions uncoloured (SVG)");
+  sub->add_flag_callback(
+      "--no-edges", [&command] { command.drawing.has_edges = false; },
+      "Draw only the edges that lie on a polyline (SVG)");
+  sub->add_option("--width", command.drawing.width, "Width in pixels, default 1200 (SVG)")
+      ->type_name("PIXELS")
+      ->check(CLI::Range(10.0, 100'000.0));
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  return sub;
+}
+
 CLI::App* add_check(CLI::App& app, CheckCommand& command) {
   CLI::App* sub =
       app.add_subcommand("check",
@@ -105,14 +137,17 @@ CLI::App* add_info(CLI::App& app, InfoCommand& command) {
 }
 
 ExitCode run_program(int argc, char** argv) {
-  CLI::App app("Closed surfaces from stacks of planar contours", "loft");
+  CLI::App app("Closed surfaces from stacks of planar contours, and triangulations of the plane",
+               "loft");
   app.set_version_flag("--version", std::string(loft::io::generator()));
   app.footer(footer());
   app.require_subcommand(1);
   ReconstructCommand reconstruct;
+  TriangulateCommand triangulate;
   CheckCommand check;
   InfoCommand info;
   const CLI::App* reconstruct_app = add_reconstruct(app, reconstruct);
+  const CLI::App* triangulate_app = add_triangulate(app, triangulate);
   const CLI::App* check_app = add_check(app, check);
   add_info(app, info);
   try {
@@ -121,6 +156,7 @@ ExitCode run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? ExitCode::ok : ExitCode::usage;
   }
   if (reconstruct_app->parsed()) return run(reconstruct);
+  if (triangulate_app->parsed()) return run(triangulate);
   return check_app->parsed() ? run(check) : run(info);
 }
 

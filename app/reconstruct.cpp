@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/reconstruct.h"
 
-#include <chrono>
 #include <functional>
 #include <iostream>
 #include <map>
-#include <system_error>
 #include <utility>
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/overwriting.h"
 #include "app/report.h"
+#include "app/stopwatch.h"
 #include "app/terminal.h"
 #include "io/slices.h"
 #include "io/surfaces.h"
@@ -21,18 +21,6 @@ namespace loft::app {
 namespace {
 
 using std::filesystem::path;
-
-/// The time since the last look, added up by what it was spent on.
-class Stopwatch {
- public:
-  double lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double>(now - std::exchange(last_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-};
 
 /// How much of the work is done: the stages' shares are about what they take.
 double overall(Stage stage, double fraction) {
@@ -77,20 +65,10 @@ class Follower {
   std::map<std::string, double> seconds_;
 };
 
-bool is_same_file(const path& a, const path& b) {
-  std::error_code ignored;
-  return std::filesystem::equivalent(a, b, ignored);
-}
-
 /// Finds out early what would make the work useless.
 void check_outputs(const ReconstructCommand& command) {
-  for (const path& output : command.outputs) {
-    for (const path& input : command.inputs) {
-      if (!is_same_file(input, output)) continue;
-      throw UsageError(output.string() + " is an input, too; it will not be overwritten");
-    }
-    io::check_writable(output);
-  }
+  forbid_overwriting(command.inputs, command.outputs);
+  for (const path& output : command.outputs) io::check_writable(output);
 }
 
 struct Result {

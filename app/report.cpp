@@ -92,12 +92,6 @@ Json to_json(const PartReport& part) {
   return json;
 }
 
-Json names(const std::vector<std::filesystem::path>& paths) {
-  Json json = Json::array();
-  for (const auto& path : paths) json.push_back(path.string());
-  return json;
-}
-
 Measures sum(const std::vector<PartReport>& parts) {
   Measures total;
   for (const PartReport& part : parts) {

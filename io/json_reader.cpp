@@ -47,7 +47,7 @@ void JsonReader::expect(char wanted) {
   if (look() != wanted) {
     std::string what = "expected ";
     what += wanted;
-    fail(place_ < text_.size() ? what : what + ", but the line ends");
+    fail(place_ < text_.size() ? what : what + ", but the " + std::string(unit_) + " ends");
   }
   ++place_;
 }
@@ -78,7 +78,7 @@ JsonKind JsonReader::kind_of_word() {
   if (word == "null") return JsonKind::null;
   if (word == "true" || word == "false") return JsonKind::boolean;
   if (is_not_finite(word)) return JsonKind::not_finite;
-  if (place_ >= text_.size()) fail("expected a value, but the line ends");
+  if (place_ >= text_.size()) fail("expected a value, but the " + std::string(unit_) + " ends");
   fail("expected a value, found " + in_quotes(word.empty() ? text_.substr(place_, 1) : word));
 }
 
@@ -235,9 +235,40 @@ void JsonReader::skip() {
   } while (!open.empty());
 }
 
-void JsonReader::end() {
+void JsonReader::end(const char* hint) {
   skip_blanks();
-  if (place_ < text_.size()) fail("something behind the closing bracket; one slice a line");
+  if (place_ < text_.size()) fail(std::string("something behind the closing bracket") + hint);
+}
+
+namespace {
+
+const char* name(JsonKind kind) {
+  switch (kind) {
+    case JsonKind::object:
+      return "an object";
+    case JsonKind::list:
+      return "a list";
+    case JsonKind::string:
+      return "a string";
+    case JsonKind::number:
+      return "a number";
+    case JsonKind::boolean:
+      return "true or false";
+    case JsonKind::null:
+      return "null";
+    case JsonKind::not_finite:
+      break;
+  }
+  return "NaN";
+}
+
+}  // namespace
+
+std::string reject(JsonReader& json, const std::string& wanted) {
+  const JsonKind kind = json.peek();
+  json.skip();
+  if (kind != JsonKind::not_finite) return "expected " + wanted + ", found " + name(kind);
+  return std::string(json.last_word()) + " is not a number; write " + wanted;
 }
 
 void append_json_string(std::string& json, std::string_view text) {

@@ -32,10 +32,13 @@ enum class JsonKind { object, list, string, number, boolean, null, not_finite };
 ///     while (json.next_item()) sum += json.number();
 ///
 /// Every function throws JsonError where the text is no JSON. Numbers are correctly rounded and do
-/// not depend on the locale. The text must outlive the reader.
+/// not depend on the locale. The text must outlive the reader. A copy of a reader is a bookmark: it
+/// goes on from where the reader was.
 class JsonReader {
  public:
-  explicit JsonReader(std::string_view text) : text_(text) {}
+  /// `unit` is what messages call the text.
+  explicit JsonReader(std::string_view text, std::string_view unit = "line")
+      : text_(text), unit_(unit) {}
 
   /// What the value that comes next is.
   [[nodiscard]] JsonKind peek();
@@ -54,8 +57,8 @@ class JsonReader {
   /// Whether another value of the list comes next; false at the list's end.
   [[nodiscard]] bool next_item();
 
-  /// Checks that only blanks are left.
-  void end();
+  /// Checks that only blanks are left; else the message ends in `hint`.
+  void end(const char* hint = "");
 
   /// The number or word that was read or left out last, as it is written.
   [[nodiscard]] std::string_view last_word() const { return last_word_; }
@@ -74,10 +77,15 @@ class JsonReader {
   [[nodiscard]] JsonKind kind_of_word();
 
   std::string_view text_;
+  std::string_view unit_;
   std::string_view last_word_;
   std::size_t place_ = 0;
   bool is_fresh_ = false;  // just behind an opening bracket
 };
+
+/// Leaves out the value that comes next and says what should have been there:
+/// `expected a list, found null`, `NaN is not a number; write a list`.
+[[nodiscard]] std::string reject(JsonReader& json, const std::string& wanted);
 
 /// Appends text as a JSON string, quotes and escapes included. Precondition: UTF-8.
 void append_json_string(std::string& json, std::string_view text);

@@ -13,26 +13,6 @@ namespace loft::io {
 
 namespace {
 
-std::string name(JsonKind kind) {
-  switch (kind) {
-    case JsonKind::object:
-      return "an object";
-    case JsonKind::list:
-      return "a list";
-    case JsonKind::string:
-      return "a string";
-    case JsonKind::number:
-      return "a number";
-    case JsonKind::boolean:
-      return "true or false";
-    case JsonKind::null:
-      return "null";
-    case JsonKind::not_finite:
-      break;
-  }
-  return "NaN";
-}
-
 class SliceReader {
  public:
   explicit SliceReader(std::string_view text) : json_(text) {}
@@ -51,13 +31,7 @@ class SliceReader {
 
   /// Leaves out the value that comes next and says what should have been there.
   void reject(const std::string& place, const std::string& wanted) {
-    const JsonKind kind = json_.peek();
-    json_.skip();
-    if (kind == JsonKind::not_finite) {
-      complain(place + std::string(json_.last_word()) + " is not a number; write " + wanted);
-    } else {
-      complain(place + "expected " + wanted + ", found " + name(kind));
-    }
+    complain(place + loft::io::reject(json_, wanted));
   }
 
   void read_slice() {
@@ -65,7 +39,7 @@ class SliceReader {
     if (json_.peek() != JsonKind::object) return reject("", wanted);
     json_.begin_object();
     while (const auto key = json_.next_key()) read_member(*key);
-    json_.end();
+    json_.end("; one slice a line");
     check_members();
   }
 

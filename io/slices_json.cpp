@@ -8,6 +8,7 @@
 
 #include "io/file.h"
 #include "io/json_reader.h"
+#include "io/problems.h"
 #include "io/slice_line.h"
 #include "io/text.h"
 #include "reconstruct/defect.h"
@@ -15,32 +16,6 @@
 namespace loft::io {
 
 namespace {
-
-constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
-
-/// Gathers problems as lines of one message, so many and no more.
-class Problems {
- public:
-  void add(const std::string& problem) {
-    constexpr std::size_t shown = 20;
-    if (++count_ > shown) return;
-    if (!text_.empty()) text_ += '\n';
-    text_ += problem;
-  }
-
-  /// Throws InputError if there are any.
-  void raise(std::string_view name) const {
-    if (count_ == 0) return;
-    const auto shown = static_cast<std::size_t>(std::ranges::count(text_, '\n')) + 1;
-    if (shown == count_) throw InputError(text_);
-    throw InputError(text_ + '\n' + std::string(name) + ": and " + std::to_string(count_ - shown) +
-                     " more");
-  }
-
- private:
-  std::string text_;
-  std::size_t count_ = 0;
-};
 
 bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
@@ -66,7 +41,7 @@ std::vector<Slice> read_slices_json(std::istream& in, std::string_view name) {
   Problems problems;
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
-    if (number == 1 && line.starts_with(byte_order_mark)) line.erase(0, byte_order_mark.size());
+    if (number == 1) line = without_mark(line);
     if (is_blank(line)) continue;
     SliceLine parsed = parse_slice_line(line);
     const std::string where = place(name, number, slices.size(), parsed);

@@ -19,6 +19,13 @@ void append_number(std::string& text, Number number) {
   text.append(digits.data(), end);
 }
 
+/// The text without the byte order mark that some programs put in front.
+[[nodiscard]] constexpr std::string_view without_mark(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  return text;
+}
+
 /// The text with every control character replaced, so that it stays on its line of a file.
 [[nodiscard]] inline std::string one_line(std::string_view text) {
   std::string result(text);

@@ -23,7 +23,7 @@ TEST(Loft, HelpNamesCommandsAndExitCodes) {
   const Folder folder;
   const Outcome outcome = run(folder, "--help");
   EXPECT_EQ(outcome.exit_code, 0);
-  for (const char* words : {"reconstruct", "check", "info",
+  for (const char* words : {"reconstruct", "check", "info", "triangulate",
                             "Exit codes: 0 ok, 1 check failed, "
                             "2 usage, 3 bad input, 4 cannot write",
                             "Examples:"}) {

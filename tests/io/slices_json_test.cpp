@@ -125,6 +125,9 @@ TEST(SlicesJson, NamesLineSliceContourAndPoint) {
        "without \"op\"\n"
        "stack.ndjson:1: slice 0 (z = 2) \"contours\" is missing; an empty slice has \"contours\": "
        "[]"},
+      {"{\"z\":2,\"contours\":[]} {}",
+       "stack.ndjson:1: slice 0 (z = 2) broken JSON at column 23: something behind the closing "
+       "bracket; one slice a line"},
       {"[1]",
        "stack.ndjson:1: slice 0 expected a slice {\"z\": ..., \"contours\": [...]}, found a list"},
   };

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+#include "app/overwriting.h"
+
+#include <system_error>
+
+#include "app/commands.h"
+
+namespace loft::app {
+
+namespace {
+
+using std::filesystem::path;
+
+bool is_same_file(const path& a, const path& b) {
+  std::error_code ignored;
+  return std::filesystem::equivalent(a, b, ignored);
+}
+
+}  // namespace
+
+void forbid_overwriting(std::span<const path> inputs, std::span<const path> outputs) {
+  for (const path& output : outputs) {
+    for (const path& input : inputs) {
+      if (!is_same_file(input, output)) continue;
+      throw UsageError(output.string() + " is an input, too; it will not be overwritten");
+    }
+  }
+}
+
+}  // namespace loft::app

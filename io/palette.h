@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/planar_mesh.h"
+
+namespace loft::io {
+
+struct Colour {
+  std::uint8_t red = 0;
+  std::uint8_t green = 0;
+  std::uint8_t blue = 0;
+
+  friend bool operator==(const Colour&, const Colour&) = default;
+};
+
+/// As SVG and CSS have it: `#e9f1f6`.
+[[nodiscard]] std::string to_hex(Colour colour);
+
+/// Calm hues, told apart by number.
+constexpr std::size_t hue_count = 8;
+
+/// What is inside an odd number of constraints; paler, an even number; the line around it.
+[[nodiscard]] Colour full_tone(std::size_t hue);
+[[nodiscard]] Colour pale_tone(std::size_t hue);
+[[nodiscard]] Colour dark_tone(std::size_t hue);
+
+constexpr Colour outside_tone{0xe8, 0xf0, 0xf5};  ///< of what nothing encloses
+constexpr Colour shared_tone{0x3a, 0x43, 0x50};   ///< of edges with several constraints
+constexpr Colour edge_tone{0x6b, 0x7a, 0x8c};     ///< of edges without constraint
+
+/// A hue for every region and every constraint of a mesh. Regions with the same key share one;
+/// neighbouring regions with different keys differ, as far as the hues reach. A constraint has that
+/// of the region that it alone encloses. Cost: O(n log n).
+struct Hues {
+  std::vector<std::uint8_t> of_region;
+  std::vector<std::uint8_t> of_constraint;
+};
+[[nodiscard]] Hues choose_hues(const PlanarMesh& mesh);
+
+/// What a region is filled with.
+[[nodiscard]] Colour fill_of(const PlanarMesh::Region& region, std::size_t hue);
+
+}  // namespace loft::io
