@@ -60,7 +60,7 @@ void Triangulation::lay(SegmentId s) {
         return;
     }
     if (!is_ahead(point(at), point(ahead), a, b)) {
-      lay_crooked(s, at);
+      lay_crooked(s, ahead);
       return;
     }
     const bool is_crossing = uses_[at.index()] == 0 || uses_[ahead.index()] == 0;
