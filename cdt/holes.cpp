@@ -31,8 +31,8 @@ void Triangulation::delete_vertex(VertexId v) {
   gather_hole(v);
   cut_ears(centre);
   for (const TriangleId t : spare_) free_triangle(t);
-  locator_.replace(v, centre, corners_[0].vertex == infinite ? corners_[1].vertex
-                                                             : corners_[0].vertex);
+  locator_.replace(v, centre,
+                   corners_[0].vertex == infinite ? corners_[1].vertex : corners_[0].vertex);
   free_vertex(v);
   restore_delaunay();
 }

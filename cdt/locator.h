@@ -41,9 +41,9 @@ class Locator {
   Box box_;
   double columns_per_unit_ = 0;
   double rows_per_unit_ = 0;
-  unsigned levels_ = 0;                            // the finest grid has 2^levels columns
-  std::size_t laid_out_for_ = 0;                   // vertices
-  std::array<std::size_t, most_levels> first_{};   // where a level's cells begin
+  unsigned levels_ = 0;                           // the finest grid has 2^levels columns
+  std::size_t laid_out_for_ = 0;                  // vertices
+  std::array<std::size_t, most_levels> first_{};  // where a level's cells begin
   std::vector<VertexId> cells_;
 };
 

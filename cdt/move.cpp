@@ -45,8 +45,7 @@ void Triangulation::move_to(ConstraintId id, std::span<const Point> points) {
 void Triangulation::replace(ConstraintId id, std::span<const Point> points) {
   const Ends ends = this->ends(id);
   const Constraint old = constraints_[id.index()];
-  for (std::uint32_t i = 0; i < old.segment_count; ++i)
-    take_off(SegmentId(old.first_segment + i));
+  for (std::uint32_t i = 0; i < old.segment_count; ++i) take_off(SegmentId(old.first_segment + i));
   release_points(id);
   settle_loose();
   free_segments(id);

@@ -187,8 +187,8 @@ bool Triangulation::is_rightly_on(SegmentId s, VertexId v) const {
   return std::ranges::any_of(around_, [&](SegmentId other) {
     const auto [c, d] = ends_of(other);
     if (other == s || !crosses(a, b, c, d)) return false;
-    const Point crossing = ends_of(other) < ends_of(s) ? intersection(c, d, a, b)
-                                                       : intersection(a, b, c, d);
+    const Point crossing =
+        ends_of(other) < ends_of(s) ? intersection(c, d, a, b) : intersection(a, b, c, d);
     return crossing == place || (epsilon_ > 0 && distance(crossing, place) <= epsilon_);
   });
 }

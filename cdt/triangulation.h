@@ -265,11 +265,11 @@ class Triangulation {
   };
   /// A side of a cavity: the edge from chain vertex i to i + 1.
   struct Gap {
-    EdgeId inside;            // the edge here in the triangles that were taken out
-    Side beyond{};            // what they were joined to
-    bool has_mate = false;    // the cavity is on both sides of this edge,
-    std::uint32_t mate = 0;   // at this gap, too
-    EdgeId inner{};           // then: the new edge here, once it is made
+    EdgeId inside;           // the edge here in the triangles that were taken out
+    Side beyond{};           // what they were joined to
+    bool has_mate = false;   // the cavity is on both sides of this edge,
+    std::uint32_t mate = 0;  // at this gap, too
+    EdgeId inner{};          // then: the new edge here, once it is made
   };
   struct Cavity {
     std::vector<VertexId> chain;

@@ -130,28 +130,30 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   return v;
 }
 
-/// With an epsilon: the nearest vertex that close to a point in no vertex; if there is none, `place`
-/// becomes the nearest constrained edge that close, where that can be split there.
+/// With an epsilon: the nearest vertex that close to a point in no vertex; if there is none,
+/// `place` becomes the nearest constrained edge that close, where that can be split there.
 VertexId Triangulation::merge(Location& place, Point p) const {
   VertexId vertex;
   EdgeId constrained;
   double to_vertex = epsilon_;
   double to_edge = epsilon_;
-  visit_disc(*this, place, p, [&] { return epsilon_; }, [&](TriangleId t) {
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const EdgeId e = edge(t, corner);
-      if (from(e) == infinite) continue;
-      if (const double d = distance(point(from(e)), p); d <= to_vertex) {
-        vertex = from(e);
-        to_vertex = d;
-      }
-      if (!is_constrained(e)) continue;
-      if (const double d = distance_to_segment(point(from(e)), point(to(e)), p); d <= to_edge) {
-        constrained = e;
-        to_edge = d;
-      }
-    }
-  });
+  visit_disc(
+      *this, place, p, [&] { return epsilon_; },
+      [&](TriangleId t) {
+        for (unsigned corner = 0; corner < 3; ++corner) {
+          const EdgeId e = edge(t, corner);
+          if (from(e) == infinite) continue;
+          if (const double d = distance(point(from(e)), p); d <= to_vertex) {
+            vertex = from(e);
+            to_vertex = d;
+          }
+          if (!is_constrained(e)) continue;
+          if (const double d = distance_to_segment(point(from(e)), point(to(e)), p); d <= to_edge) {
+            constrained = e;
+            to_edge = d;
+          }
+        }
+      });
   if (vertex.is_none() && !constrained.is_none() && can_split(constrained, p))
     place = {Location::Kind::edge, constrained};
   return vertex;
@@ -297,10 +299,10 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
     const bool upward = !set.is_empty() && point(low) < point(high);
     return upward == was_upward ? passages : sets_.reversed(passages);
   };
-  join(edge(parts[0], 2), edge(parts[1], 1));                         // v-c
+  join(edge(parts[0], 2), edge(parts[1], 1));                               // v-c
   join(edge(parts[1], 2), edge(parts[2], 1), half(v, b, sets_.copy(set)));  // v-b
-  join(edge(parts[2], 2), edge(parts[3], 1));                         // v-d
-  join(edge(parts[3], 2), edge(parts[0], 1), half(a, v, set));        // v-a
+  join(edge(parts[2], 2), edge(parts[3], 1));                               // v-d
+  join(edge(parts[3], 2), edge(parts[0], 1), half(a, v, set));              // v-a
   vertex_edges_[v.index()] = edge(parts[0], 2);
   fan_out(v);
 }
