@@ -16,20 +16,19 @@ struct Stop {
   std::uint32_t index;
 };
 
-/// How far along a Hilbert curve over a grid of 2^16 x 2^16 cells a cell is, after the table-free
-/// form with Gray codes (Skilling, "Programming the Hilbert curve", 2004).
+/// How far along a Hilbert curve over a grid of 2^16 x 2^16 cells a cell is: quadrant by quadrant,
+/// turning what is inside as the curve turns there. Without branches, which nothing could predict.
 std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y) {
   std::uint32_t key = 0;
-  for (std::uint32_t s = 0x8000; s != 0; s >>= 1) {
-    const std::uint32_t rx = (x & s) != 0 ? 1 : 0;
-    const std::uint32_t ry = (y & s) != 0 ? 1 : 0;
-    key = key << 2 | ((3 * rx) ^ ry);
-    if (ry != 0) continue;
-    if (rx != 0) {
-      x = ~x;
-      y = ~y;
-    }
-    std::swap(x, y);
+  for (unsigned bit = 16; bit-- > 0;) {
+    const std::uint32_t right = x >> bit & 1;
+    const std::uint32_t upper = y >> bit & 1;
+    key = key << 2 | ((3 * right) ^ upper);
+    const std::uint32_t is_lower = upper - 1;            // all bits or none
+    const std::uint32_t is_turned = is_lower & -right;   // around the diagonal from the far corner
+    const std::uint32_t exchanged = (x ^ y) & is_lower;
+    x ^= exchanged ^ is_turned;
+    y ^= exchanged ^ is_turned;
   }
   return key;
 }
@@ -97,9 +96,16 @@ std::vector<ConstraintId> Triangulation::insert(std::span<const Polyline> polyli
   begin_edit();
   const std::size_t known_snaps = snaps_.size();
   std::vector<VertexId> vertices(count);
-  for (const auto& [key, i] : order_of_insertion(points)) {
-    vertices[i] = insert_near(points[i], last_);
-    ++uses_[vertices[i].index()];
+  const std::vector<Stop> order = order_of_insertion(points);
+  std::array<Point, 128> ahead;  // points are far apart in memory: fetch many at a time
+  for (std::size_t first = 0; first < count; first += ahead.size()) {
+    const std::size_t size = std::min(ahead.size(), count - first);
+    for (std::size_t k = 0; k < size; ++k) ahead[k] = points[order[first + k].index];
+    for (std::size_t k = 0; k < size; ++k) {
+      const VertexId v = insert_near(ahead[k], last_);
+      ++uses_[v.index()];
+      vertices[order[first + k].index] = v;
+    }
   }
   std::vector<ConstraintId> ids;
   ids.reserve(polylines.size());

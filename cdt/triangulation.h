@@ -309,8 +309,17 @@ class Triangulation {
     const std::uint32_t bits = edges_[e.index()].bits;
     return {bits, (bits & OrientedEdge::constrained) != 0 ? edge_sets_[e.index()] : PassageSet()};
   }
-  void attach(EdgeId e, Side side);
-  void join(EdgeId a, EdgeId b);
+  /// Puts an edge in the place of another that had this side.
+  void attach(EdgeId e, Side side) {
+    const std::uint32_t flag = side.bits & OrientedEdge::constrained;
+    edges_[e.index()].bits = side.bits;
+    edges_[side.bits & ~OrientedEdge::constrained].bits = e.index() | flag;
+    if (flag != 0) edge_sets_[e.index()] = side.set;
+  }
+  void join(EdgeId a, EdgeId b) {
+    edges_[a.index()].bits = b.index();
+    edges_[b.index()].bits = a.index();
+  }
   void join(EdgeId a, EdgeId b, PassageSet set);
 
   // triangulation.cpp: edits
@@ -351,6 +360,7 @@ class Triangulation {
   void split_edge(EdgeId e, VertexId v);
   [[nodiscard]] VertexId split_edge_at(EdgeId e, Point place);
   void fan_out(VertexId v);
+  void flip_away(EdgeId e, VertexId v, VertexId d);
   [[nodiscard]] bool can_split(EdgeId e, Point point) const;
   [[nodiscard]] bool should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const;
   void flip(EdgeId e);

@@ -73,19 +73,6 @@ void Triangulation::free_vertex(VertexId v) {
   free_vertices_.push_back(v);
 }
 
-/// Puts an edge in the place of another that had this side.
-void Triangulation::attach(EdgeId e, Side side) {
-  edges_[e.index()].bits = side.bits;
-  const std::uint32_t flag = side.bits & OrientedEdge::constrained;
-  edges_[side.bits & ~OrientedEdge::constrained].bits = e.index() | flag;
-  if (flag != 0) edge_sets_[e.index()] = side.set;
-}
-
-void Triangulation::join(EdgeId a, EdgeId b) {
-  edges_[a.index()].bits = b.index();
-  edges_[b.index()].bits = a.index();
-}
-
 void Triangulation::join(EdgeId a, EdgeId b, PassageSet set) {
   if (set.is_empty()) {
     join(a, b);
@@ -257,7 +244,6 @@ void Triangulation::split_triangle(TriangleId t, VertexId v) {
     set_from(edge(parts[i], 2), v);
     attach(edge(parts[i], 0), sides[i]);
     vertex_edges_[starts[i].index()] = edge(parts[i], 0);
-    suspects_.push_back(edge(parts[i], 0));
   }
   for (unsigned i = 0; i < 3; ++i) join(edge(parts[i], 1), edge(parts[(i + 1) % 3], 2));
   vertex_edges_[v.index()] = edge(t, 2);
@@ -292,7 +278,6 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
       if (sides[i].bits == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
     attach(edge(parts[i], 0), sides[i]);
     vertex_edges_[starts[i].index()] = edge(parts[i], 0);
-    suspects_.push_back(edge(parts[i], 0));
   }
   // A rounded point may lie beyond the ends in the lexicographic order: turn the passages then.
   const auto half = [&](VertexId low, VertexId high, PassageSet passages) {
@@ -307,40 +292,59 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
   fan_out(v);
 }
 
-/// Flips edges opposite to the new vertex v, listed in suspects_, until they are Delaunay
-/// (Lawson). Each is at corner 0 of its triangle, v at corner 2; flips keep it so.
-void Triangulation::fan_out(VertexId v) {
-  while (!suspects_.empty()) {
-    const EdgeId e = suspects_.back();
-    suspects_.pop_back();
-    if (is_constrained(e)) continue;
-    const EdgeId f = twin(e);
-    const VertexId a = from(e);
-    const VertexId b = from(f);
-    const VertexId d = apex(f);
-    if (!should_flip(a, b, v, d)) continue;
+/// Whether the edge ab between the triangles (a, b, c) and (b, a, d) is not Delaunay. An infinite
+/// corner stands for a point so far away that circles through it are straight lines.
+inline bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const {
+  if (c == infinite || d == infinite) return false;
+  if (a == infinite) return orient(point(d), point(b), point(c)) > 0;
+  if (b == infinite) return orient(point(c), point(a), point(d)) > 0;
+  return in_circle_perturbed(point(a), point(b), point(c), point(d)) > 0;
+}
 
-    const Side ad = side(next(f));
-    const Side db = side(prev(f));
-    const Side bv = side(next(e));
-    const TriangleId t = triangle(e);
-    const TriangleId u = triangle(f);
-    touch(t);
-    touch(u);
-    set_from(edge(t, 1), d);
-    attach(edge(t, 0), ad);
-    set_from(edge(u, 0), d);
-    set_from(edge(u, 1), b);
-    set_from(edge(u, 2), v);
-    attach(edge(u, 0), db);
-    attach(edge(u, 1), bv);
-    join(edge(t, 1), edge(u, 2));
-    vertex_edges_[a.index()] = edge(t, 0);
-    vertex_edges_[b.index()] = edge(u, 1);
-    vertex_edges_[d.index()] = edge(u, 0);
-    suspects_.push_back(edge(t, 0));
-    suspects_.push_back(edge(u, 0));
+/// Flips the edges opposite to the new vertex v until they are Delaunay (Lawson): once around it,
+/// staying where an edge was flipped, as another is there then. In every triangle the edge is at
+/// corner 0, v at corner 2; flips keep it so.
+void Triangulation::fan_out(VertexId v) {
+  TriangleId t = triangle(edge(v));
+  const VertexId first = from(edge(t, 0));
+  for (;;) {
+    const EdgeId e = edge(t, 0);
+    if (!is_constrained(e)) {
+      const EdgeId f = twin(e);
+      const VertexId d = apex(f);
+      if (should_flip(from(e), from(f), v, d)) {
+        flip_away(e, v, d);
+        continue;
+      }
+    }
+    t = triangle(twin(edge(t, 1)));
+    if (from(edge(t, 0)) == first) break;
   }
+}
+
+/// Turns the edge e between the triangles (a, b, v) and (b, a, d) so that it joins v and d.
+void Triangulation::flip_away(EdgeId e, VertexId v, VertexId d) {
+  const EdgeId f = twin(e);
+  const VertexId a = from(e);
+  const VertexId b = from(f);
+  const Side ad = side(next(f));
+  const Side db = side(prev(f));
+  const Side bv = side(next(e));
+  const TriangleId t = triangle(e);
+  const TriangleId u = triangle(f);
+  touch(t);
+  touch(u);
+  set_from(edge(t, 1), d);
+  attach(edge(t, 0), ad);
+  set_from(edge(u, 0), d);
+  set_from(edge(u, 1), b);
+  set_from(edge(u, 2), v);
+  attach(edge(u, 0), db);
+  attach(edge(u, 1), bv);
+  join(edge(t, 1), edge(u, 2));
+  vertex_edges_[a.index()] = edge(t, 0);
+  vertex_edges_[b.index()] = edge(u, 1);
+  vertex_edges_[d.index()] = edge(u, 0);
 }
 
 /// A new vertex on an edge, or so near that it bends it.
@@ -363,15 +367,6 @@ bool Triangulation::can_split(EdgeId e, Point p) const {
     if (orient(point(from(side)), point(to(side)), p) <= 0) return false;
   }
   return from(e) != infinite && to(e) != infinite;
-}
-
-/// Whether the edge ab between the triangles (a, b, c) and (b, a, d) is not Delaunay. An infinite
-/// corner stands for a point so far away that circles through it are straight lines.
-bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const {
-  if (c == infinite || d == infinite) return false;
-  if (a == infinite) return orient(point(d), point(b), point(c)) > 0;
-  if (b == infinite) return orient(point(c), point(a), point(d)) > 0;
-  return in_circle_perturbed(point(a), point(b), point(c), point(d)) > 0;
 }
 
 /// Turns the diagonal of the two triangles beside e, which must make a convex quadrilateral.
