@@ -41,6 +41,7 @@ Triangulation::Triangulation(double epsilon) : epsilon_(epsilon) {
 
 void Triangulation::clear() {
   edges_.clear();
+  triangle_bound_ = 0;
   edge_sets_.clear();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   points_.assign(1, Point{infinity, infinity});
@@ -68,7 +69,6 @@ void Triangulation::reserve(std::size_t vertices) {
   vertex_edges_.reserve(vertices + 1);
   uses_.reserve(vertices + 1);
   edges_.reserve(6 * vertices);
-  edge_sets_.reserve(6 * vertices);
   segments_.reserve(vertices);
 }
 

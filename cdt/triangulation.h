@@ -177,13 +177,13 @@ class Triangulation {
   }
   /// Triangles there are, infinite ones included.
   [[nodiscard]] std::size_t triangle_count() const {
-    return edges_.size() / 3 - free_triangles_.size();
+    return triangle_bound_ - free_triangles_.size();
   }
-  [[nodiscard]] std::size_t triangle_bound() const { return edges_.size() / 3; }
+  [[nodiscard]] std::size_t triangle_bound() const { return triangle_bound_; }
   [[nodiscard]] bool is_triangle(TriangleId t) const {
     return t.index() < triangle_bound() && !edges_[3 * t.index()].from.is_none();
   }
-  [[nodiscard]] std::size_t edge_bound() const { return edges_.size(); }
+  [[nodiscard]] std::size_t edge_bound() const { return 3 * triangle_bound_; }
 
   /// The edge between two vertices, if there is one. Cost: the smaller degree.
   [[nodiscard]] std::optional<EdgeId> find_edge(VertexId a, VertexId b) const;
@@ -298,6 +298,7 @@ class Triangulation {
 
   [[nodiscard]] bool is_upward(EdgeId e) const { return point(from(e)) < point(to(e)); }
   [[nodiscard]] TriangleId new_triangle();
+  void grow();
   [[nodiscard]] VertexId new_vertex(Point point);
   void free_triangle(TriangleId t);
   void free_vertex(VertexId v);
@@ -309,12 +310,17 @@ class Triangulation {
     const std::uint32_t bits = edges_[e.index()].bits;
     return {bits, (bits & OrientedEdge::constrained) != 0 ? edge_sets_[e.index()] : PassageSet()};
   }
+  /// The sets grow only as far as there are constrained edges.
+  [[nodiscard]] PassageSet& set_at(EdgeId e) {
+    if (e.index() >= edge_sets_.size()) edge_sets_.resize(edges_.size());
+    return edge_sets_[e.index()];
+  }
   /// Puts an edge in the place of another that had this side.
   void attach(EdgeId e, Side side) {
     const std::uint32_t flag = side.bits & OrientedEdge::constrained;
     edges_[e.index()].bits = side.bits;
     edges_[side.bits & ~OrientedEdge::constrained].bits = e.index() | flag;
-    if (flag != 0) edge_sets_[e.index()] = side.set;
+    if (flag != 0) set_at(e) = side.set;
   }
   void join(EdgeId a, EdgeId b) {
     edges_[a.index()].bits = b.index();
@@ -351,6 +357,10 @@ class Triangulation {
   [[nodiscard]] EdgeId hint_for(Point point) const;
   void remember(VertexId v);
   [[nodiscard]] VertexId split_at(Location place, Point point);
+  [[nodiscard]] bool has_constrained_edge(TriangleId t) const {
+    const OrientedEdge* e = &edges_[3 * t.index()];
+    return ((e[0].bits | e[1].bits | e[2].bits) & OrientedEdge::constrained) != 0;
+  }
   [[nodiscard]] std::optional<EdgeId> bent_edge_at(TriangleId t, Point point);
   void doubt_others_on(EdgeId e, Point point);
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
@@ -378,6 +388,7 @@ class Triangulation {
   [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
   [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
                                      Obstacle& obstacle) const;
+  void doubt_point_beside(VertexId v, SegmentId s);
   void doubt_beside(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
   void lay_crooked(SegmentId s, VertexId at);
@@ -443,7 +454,8 @@ class Triangulation {
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
 
   double epsilon_ = 0;
-  std::vector<OrientedEdge> edges_;
+  std::vector<OrientedEdge> edges_;    // some more than triangle_bound_ asks for
+  std::size_t triangle_bound_ = 0;
   std::vector<PassageSet> edge_sets_;  // of constrained edges; the same on both sides
   std::vector<Point> points_;
   std::vector<EdgeId> vertex_edges_;

@@ -31,18 +31,24 @@ void Triangulation::insert_points(std::span<const Point> points) {
 
 TriangleId Triangulation::new_triangle() {
   TriangleId t;
-  if (free_triangles_.empty()) {
-    t = TriangleId(static_cast<std::uint32_t>(triangle_bound()));
-    if (edges_.size() + 3 > OrientedEdge::constrained)
-      throw std::length_error("a triangulation has at most 2^31 edges");
-    edges_.resize(edges_.size() + 3);
-    edge_sets_.resize(edges_.size());
-  } else {
+  if (!free_triangles_.empty()) {
     t = free_triangles_.back();
     free_triangles_.pop_back();
+  } else {
+    t = TriangleId(static_cast<std::uint32_t>(triangle_bound_));
+    if (edge_bound() >= edges_.size()) grow();
+    ++triangle_bound_;
   }
   if (is_recording_) touched_.push_back({t, false});
   return t;
+}
+
+/// Room for more triangles: a little at a time, so that no memory is touched in vain.
+void Triangulation::grow() {
+  constexpr std::size_t more = 3 * 256;
+  if (edges_.size() + more > OrientedEdge::constrained)
+    throw std::length_error("a triangulation has at most 2^31 edges");
+  edges_.resize(edges_.size() + more);
 }
 
 void Triangulation::free_triangle(TriangleId t) {
@@ -80,8 +86,8 @@ void Triangulation::join(EdgeId a, EdgeId b, PassageSet set) {
   }
   edges_[a.index()].bits = b.index() | OrientedEdge::constrained;
   edges_[b.index()].bits = a.index() | OrientedEdge::constrained;
-  edge_sets_[a.index()] = set;
-  edge_sets_[b.index()] = set;
+  set_at(a) = set;
+  set_at(b) = set;
 }
 
 void Triangulation::remember(VertexId v) { locator_.add(v, point(v)); }
@@ -106,7 +112,9 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   if (epsilon_ > 0) {
     if (const VertexId v = merge(place, point); !v.is_none()) return v;
   } else if (place.kind == Location::Kind::triangle) {
-    if (const auto bent = bent_edge_at(triangle(place.edge), point))
+    if (!has_constrained_edge(triangle(place.edge))) {
+      // the commonest case: nothing is bent here
+    } else if (const auto bent = bent_edge_at(triangle(place.edge), point))
       place = {Location::Kind::edge, *bent};
   } else if (place.kind == Location::Kind::edge && is_constrained(place.edge)) {
     doubt_others_on(place.edge, point);
