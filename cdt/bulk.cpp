@@ -93,6 +93,8 @@ std::vector<ConstraintId> Triangulation::insert(std::span<const Polyline> polyli
   for (const Polyline& polyline : polylines)
     points.insert(points.end(), polyline.points.begin(), polyline.points.end());
 
+  if (count == 0) return {};
+
   begin_edit();
   const std::size_t known_snaps = snaps_.size();
   std::vector<VertexId> vertices(count);
@@ -107,6 +109,7 @@ std::vector<ConstraintId> Triangulation::insert(std::span<const Polyline> polyli
       vertices[order[first + k].index] = v;
     }
   }
+  if (locator_.is_outgrown(vertex_count(), points[0])) locator_.lay_out(points_, vertex_count());
   std::vector<ConstraintId> ids;
   ids.reserve(polylines.size());
   const VertexId* first = vertices.data();

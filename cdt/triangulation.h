@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -271,6 +272,20 @@ class Triangulation {
     std::uint32_t mate = 0;  // at this gap, too
     EdgeId inner{};          // then: the new edge here, once it is made
   };
+  /// What filling a large cavity needs, kept from one to the next. A copy begins with none.
+  struct Workshop;
+  class Workshops {
+   public:
+    Workshops() = default;
+    Workshops(const Workshops&) {}
+    Workshops(Workshops&&) = default;
+    Workshops& operator=(const Workshops&) { return *this; }
+    Workshops& operator=(Workshops&&) = default;
+    [[nodiscard]] Workshop& get();
+
+   private:
+    std::shared_ptr<Workshop> one_;
+  };
   struct Cavity {
     std::vector<VertexId> chain;
     std::vector<Gap> gaps;
@@ -410,6 +425,7 @@ class Triangulation {
   [[nodiscard]] EdgeId fill(Cavity& cavity);
   [[nodiscard]] EdgeId fill(Cavity& cavity, std::uint32_t low, std::uint32_t high);
   [[nodiscard]] EdgeId fill_large(Cavity& cavity);
+  void copy_triangle(EdgeId in_part);
   [[nodiscard]] std::uint32_t choose_tip(const Cavity& cavity, std::uint32_t low,
                                          std::uint32_t high) const;
   [[nodiscard]] bool opens_towards(const Cavity& cavity, std::uint32_t tip, VertexId low,
@@ -496,6 +512,7 @@ class Triangulation {
   std::vector<std::pair<Point, Point>> edited_;
   Cavity left_;
   Cavity right_;
+  Workshops workshop_;
 };
 
 }  // namespace loft::cdt
