@@ -63,13 +63,13 @@ void Triangulation::rate(std::uint32_t i, Point centre) {
   const Point a = point(before);
   const Point b = point(corner.vertex);
   const Point c = point(after);
-  if (orient(a, b, c) <= 0 || orient(a, c, centre) < 0) return;
   const double ax = a.x - centre.x, ay = a.y - centre.y;
   const double bx = b.x - centre.x, by = b.y - centre.y;
   const double cx = c.x - centre.x, cy = c.y - centre.y;
   const double bc = bx * cy - cx * by;
   const double ca = cx * ay - ax * cy;
   const double ab = ax * by - bx * ay;
+  if (orient(a, b, c) <= 0 || orient(a, c, centre) < 0) return;
   const double height =
       (ax * ax + ay * ay) * bc + (bx * bx + by * by) * ca + (cx * cx + cy * cy) * ab;
   const double urgency = height / (bc + ca + ab);
