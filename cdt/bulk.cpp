@@ -24,8 +24,8 @@ std::uint32_t hilbert_key(std::uint32_t x, std::uint32_t y) {
     const std::uint32_t right = x >> bit & 1;
     const std::uint32_t upper = y >> bit & 1;
     key = key << 2 | ((3 * right) ^ upper);
-    const std::uint32_t is_lower = upper - 1;            // all bits or none
-    const std::uint32_t is_turned = is_lower & -right;   // around the diagonal from the far corner
+    const std::uint32_t is_lower = upper - 1;           // all bits or none
+    const std::uint32_t is_turned = is_lower & -right;  // around the diagonal from the far corner
     const std::uint32_t exchanged = (x ^ y) & is_lower;
     x ^= exchanged ^ is_turned;
     y ^= exchanged ^ is_turned;

@@ -127,8 +127,7 @@ EdgeId Triangulation::fill_large(Cavity& cavity) {
     }
     // Along the chain backwards, with the cavity on the left.
     for (const Passage passage : part.passages(e))
-      if (!part.is_forward(e, passage))
-        close(cavity, passage.segment().index(), made[e.index()]);
+      if (!part.is_forward(e, passage)) close(cavity, passage.segment().index(), made[e.index()]);
   }
   return made[base.index()];
 }

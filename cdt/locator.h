@@ -27,6 +27,8 @@ class Locator {
   void add(VertexId v, Point p);
   /// `instead` is another vertex nearby, or none.
   void replace(VertexId v, Point p, VertexId instead);
+  /// The same vertex, at q instead of p.
+  void move(VertexId v, Point p, Point q, VertexId instead);
   /// A vertex near p; none if nothing is known.
   [[nodiscard]] VertexId near(Point p) const;
 

@@ -226,10 +226,9 @@ void Triangulation::straighten(std::size_t known_snaps) {
     box.add(a);
     box.add(b);
   }
-  const double slack =
-      nearly * doubtful_rounding *
-      std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
-                std::abs(box.high.y)});
+  const double slack = nearly * doubtful_rounding *
+                       std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
+                                 std::abs(box.high.y)});
   const auto is_near = [&](Point place) {
     if (place.x < box.low.x - slack || place.x > box.high.x + slack ||
         place.y < box.low.y - slack || place.y > box.high.y + slack)

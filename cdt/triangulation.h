@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -310,6 +311,8 @@ class Triangulation {
   };
 
   static constexpr std::uint32_t unused = 0xffff'ffff;
+  static constexpr std::uint32_t moved = 0x8000'0000;  // in uses_, during a move
+  static constexpr std::uint32_t most_planned = 9;     // corners of a small hole
 
   [[nodiscard]] bool is_upward(EdgeId e) const { return point(from(e)) < point(to(e)); }
   [[nodiscard]] TriangleId new_triangle();
@@ -455,6 +458,10 @@ class Triangulation {
   void delete_from_line(VertexId v);
   void gather_half(Cavity& cavity, EdgeId first, EdgeId last);
   [[nodiscard]] bool is_beside(const Cavity& cavity) const;
+  [[nodiscard]] bool fill_small_hole(VertexId v);
+  [[nodiscard]] bool plan(const Cavity& cavity, std::uint32_t low, std::uint32_t high);
+  [[nodiscard]] EdgeId fill_planned(Cavity& cavity, std::uint32_t low, std::uint32_t high);
+  void gather_star(VertexId v);
   void gather_hole(VertexId v);
   void rate(std::uint32_t corner, Point centre);
   void cut_ears(Point centre);
@@ -468,9 +475,11 @@ class Triangulation {
   void move_in_place(ConstraintId id, std::span<const Point> points);
   [[nodiscard]] bool is_plain(SegmentId s) const;
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
+  void push_around(VertexId v);
+  [[nodiscard]] bool has_moved(VertexId v) const { return (uses_[v.index()] & moved) != 0; }
 
   double epsilon_ = 0;
-  std::vector<OrientedEdge> edges_;    // some more than triangle_bound_ asks for
+  std::vector<OrientedEdge> edges_;  // some more than triangle_bound_ asks for
   std::size_t triangle_bound_ = 0;
   std::vector<PassageSet> edge_sets_;  // of constrained edges; the same on both sides
   std::vector<Point> points_;
@@ -506,6 +515,7 @@ class Triangulation {
   std::vector<Passage> around_passages_;
   std::vector<Corner> corners_;
   std::vector<Ear> ears_;
+  std::array<std::array<std::uint32_t, most_planned>, most_planned> tips_{};
   std::vector<Point> places_;
   std::vector<char> stays_;
   std::vector<std::uint32_t> still_;
