@@ -61,6 +61,8 @@ void Triangulation::clear() {
   changes_ = {};
   last_ = EdgeId::none();
   only_ = VertexId::none();
+  vertex_count_ = 0;
+  reserved_ = VertexId::none();
   is_flat_ = true;
 }
 

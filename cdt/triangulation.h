@@ -169,9 +169,7 @@ class Triangulation {
   }
 
   /// Vertices there are, without the infinite one.
-  [[nodiscard]] std::size_t vertex_count() const {
-    return points_.size() - 1 - free_vertices_.size();
-  }
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
   /// Their ids are above 0, which is the infinite one, and below this.
   [[nodiscard]] std::size_t vertex_bound() const { return points_.size(); }
   [[nodiscard]] bool is_vertex(VertexId v) const {
@@ -370,6 +368,7 @@ class Triangulation {
 
   // vertices.cpp
   void insert_points(std::span<const Point> points);
+  [[nodiscard]] std::vector<VertexId> insert_in_rounds(std::span<const Point> points);
   VertexId insert_near(Point point, EdgeId hint);
   [[nodiscard]] VertexId merge(Location& place, Point point) const;
   [[nodiscard]] EdgeId hint_for(Point point) const;
@@ -497,6 +496,8 @@ class Triangulation {
   std::vector<Snap> snaps_;
   Locator locator_;
   EdgeId last_;
+  std::size_t vertex_count_ = 0;
+  VertexId reserved_;    // the number of the next vertex, where that is not the first free one
   VertexId only_;        // the only vertex, while there is just one
   bool is_flat_ = true;  // no finite triangle yet: all vertices in one line
   bool is_recording_ = false;

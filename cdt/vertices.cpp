@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <utility>
 
 #include "cdt/disc.h"
 #include "cdt/predicates.h"
@@ -58,6 +59,12 @@ void Triangulation::free_triangle(TriangleId t) {
 }
 
 VertexId Triangulation::new_vertex(Point point) {
+  ++vertex_count_;
+  if (!reserved_.is_none()) {
+    const VertexId v = std::exchange(reserved_, VertexId::none());
+    uses_[v.index()] = 0;
+    return v;
+  }
   if (!free_vertices_.empty()) {
     const VertexId v = free_vertices_.back();
     free_vertices_.pop_back();
@@ -73,6 +80,7 @@ VertexId Triangulation::new_vertex(Point point) {
 }
 
 void Triangulation::free_vertex(VertexId v) {
+  --vertex_count_;
   points_[v.index()] = point(infinite);
   vertex_edges_[v.index()] = EdgeId::none();
   uses_[v.index()] = unused;
