@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <unordered_set>
 
 #include "cdt/predicates.h"
 
