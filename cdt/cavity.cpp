@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <memory>
 
 #include "cdt/predicates.h"
 #include "cdt/triangulation.h"
@@ -87,52 +86,65 @@ EdgeId Triangulation::fill(Cavity& cavity) {
   return fill(cavity, 0, static_cast<std::uint32_t>(cavity.chain.size() - 1));
 }
 
+struct Triangulation::Workshop {
+  Triangulation part;
+  std::vector<Point> places;
+  std::vector<VertexId> vertex_of;  // by vertex of the part
+  std::vector<EdgeId> made;         // by edge of the part
+  std::vector<EdgeId> front;
+};
+
+Triangulation::Workshop& Triangulation::Workshops::get() {
+  if (!one_) one_ = std::make_shared<Workshop>();
+  return *one_;
+}
+
 /// By a triangulation of the chain's vertices alone, with the chain as constraints: tips chosen one
 /// by one would take quadratic time.
 EdgeId Triangulation::fill_large(Cavity& cavity) {
+  auto& [part, places, vertex_of, made, front] = workshop_.get();
   const std::size_t n = cavity.chain.size();
-  Triangulation part;
-  part.reserve(n);
-  std::vector<Point> places(n);
+  places.resize(n);
   for (std::size_t i = 0; i < n; ++i) places[i] = point(cavity.chain[i]);
-  part.insert(places, closed);
-  const auto segments = part.segments(ConstraintId(0));
-  std::vector<VertexId> vertex_of(part.vertex_bound());
+  part.clear();
+  const auto segments = part.segments(part.insert(places, closed));
+  vertex_of.resize(part.vertex_bound());
   for (std::size_t i = 0; i < n; ++i) vertex_of[segments[i].from.index()] = cavity.chain[i];
 
   // From the base inwards. The chain goes clockwise, the base from its first vertex to its last.
-  std::vector<EdgeId> made(part.edge_bound());
-  std::vector<EdgeId> front;
-  const auto enter = [&](EdgeId e) {
-    const TriangleId t = spare_triangle();
-    for (unsigned i = 0; i < 3; ++i) {
-      const VertexId v = vertex_of[part.from(e).index()];
-      const EdgeId here = edge(t, i);
-      set_from(here, v);
-      vertex_edges_[v.index()] = here;
-      made[e.index()] = here;
-      front.push_back(e);
-      e = next(e);
-    }
-  };
   const EdgeId base = *part.find_edge(segments[0].from, segments[n - 1].from);
-  enter(base);
+  made.assign(part.edge_bound(), EdgeId::none());
+  copy_triangle(base);
   while (!front.empty()) {
     const EdgeId e = front.back();
     front.pop_back();
     if (e == base) continue;
     const EdgeId f = part.twin(e);
     if (!part.is_constrained(e)) {
-      if (made[f.index()].is_none()) enter(f);
+      if (made[f.index()].is_none()) copy_triangle(f);
       join(made[e.index()], made[f.index()]);
       continue;
     }
     // Along the chain backwards, with the cavity on the left.
     for (const Passage passage : part.passages(e))
-      if (!part.is_forward(e, passage))
-        close(cavity, passage.segment().index(), made[e.index()]);
+      if (!part.is_forward(e, passage)) close(cavity, passage.segment().index(), made[e.index()]);
   }
   return made[base.index()];
+}
+
+/// The triangle left of an edge of the part, made here.
+void Triangulation::copy_triangle(EdgeId e) {
+  auto& [part, places, vertex_of, made, front] = workshop_.get();
+  const TriangleId t = spare_triangle();
+  for (unsigned i = 0; i < 3; ++i) {
+    const VertexId v = vertex_of[part.from(e).index()];
+    const EdgeId here = edge(t, i);
+    set_from(here, v);
+    vertex_edges_[v.index()] = here;
+    made[e.index()] = here;
+    front.push_back(e);
+    e = next(e);
+  }
 }
 
 TriangleId Triangulation::spare_triangle() {

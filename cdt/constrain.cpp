@@ -99,10 +99,15 @@ EdgeId Triangulation::edge_between(VertexId from, VertexId to) const {
 VertexId Triangulation::meet(EdgeId e, SegmentId s) {
   const std::optional<Point> place = crossing_point(e, s);
   if (!place) return VertexId::none();
-  for (const VertexId end : {from(e), to(e)})
-    if (point(end) == *place) return end;
+  for (const VertexId end : {from(e), to(e)}) {
+    if (point(end) != *place) continue;
+    doubt_point_beside(end, s);
+    return end;
+  }
   for (const VertexId beside : {apex(e), apex(twin(e))}) {
     if (beside == infinite || point(beside) != *place) continue;
+    doubt_point_beside(beside, s);
+    for (const Passage passage : passages(e)) doubt_point_beside(beside, passage.segment());
     reroute(e, beside);
     return beside;
   }
@@ -113,6 +118,14 @@ VertexId Triangulation::meet(EdgeId e, SegmentId s) {
     doubt(s, *place);
   }
   return split_edge_at(e, *place);
+}
+
+/// Notes that a segment goes through a point which rounding alone puts on it: what else ends there
+/// may cross it hardly apart.
+void Triangulation::doubt_point_beside(VertexId v, SegmentId s) {
+  if (uses_[v.index()] == 0) return;
+  const auto [a, b] = ends_of(s);
+  if (orient(a, b, point(v)) != 0) doubt(s, point(v));
 }
 
 /// Makes and marks the straight edge between two vertices if nothing is between them.

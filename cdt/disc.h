@@ -9,8 +9,9 @@
 
 namespace loft::cdt {
 
-/// Calls visit(triangle) for the triangles, infinite ones included, that come as near to p as radius(), which may
-/// shrink on the way, from `place`, where p is, outwards. Cost: in their number.
+/// Calls visit(triangle) for the triangles, infinite ones included, that come as near to p as
+/// radius(), which may shrink on the way, from `place`, where p is, outwards. Cost: in their
+/// number.
 template <class Radius, class Visit>
 void visit_disc(const Triangulation& mesh, Location place, Point p, Radius radius, Visit visit) {
   std::unordered_set<TriangleId> seen;

@@ -18,23 +18,92 @@ constexpr std::uint32_t large_hole = 32;
 
 }  // namespace
 
-/// Takes out a vertex without constrained edges. The hole is filled ear by ear, in the order in
-/// which the ears would appear if the vertex were lifted off the paraboloid (Devillers, "On
-/// Deletion in Delaunay Triangulations", 1999). That order is computed in floating point; flips
-/// mend what it gets wrong, and decide ties.
+/// Takes out a vertex without constrained edges, and fills the hole.
 void Triangulation::delete_vertex(VertexId v) {
   if (is_flat_) {
     delete_from_line(v);
     return;
   }
   const Point centre = point(v);
-  gather_hole(v);
-  cut_ears(centre);
+  const VertexId neighbour = to(edge(v)) == infinite ? to(rotated(edge(v))) : to(edge(v));
+  if (!fill_small_hole(v)) {
+    gather_hole(v);
+    cut_ears(centre);
+  }
   for (const TriangleId t : spare_) free_triangle(t);
-  locator_.replace(v, centre, corners_[0].vertex == infinite ? corners_[1].vertex
-                                                             : corners_[0].vertex);
+  locator_.replace(v, centre, neighbour);
   free_vertex(v);
   restore_delaunay();
+}
+
+/// Where a hole has few corners, triangle by triangle: the tip beyond an edge is the corner whose
+/// circle with the edge holds no other. All triangles are chosen before anything is changed: that
+/// they are counter-clockwise is what shows that they fill the hole, as constraints around it may
+/// stand between an edge and its tip. Nothing happens if they are not, or at the hull.
+bool Triangulation::fill_small_hole(VertexId v) {
+  const EdgeId first = edge(v);
+  EdgeId last = first;
+  std::uint32_t degree = 0;
+  do {
+    if (to(last) == infinite || ++degree > most_planned) return false;
+    last = rotated(last);
+  } while (last != first);
+  last = next(twin(first));  // the one before the first, all around
+  gather_half(left_, first, last);
+  if (!plan(left_, 0, degree - 1)) return false;
+  gather_star(v);
+  const Side base = side(next(last));
+  attach(fill_planned(left_, 0, degree - 1), base);
+  last_ = edge(left_.chain[0]);
+  return true;
+}
+
+/// Chooses the tips for the part of a hole that the chain from low to high closes.
+bool Triangulation::plan(const Cavity& cavity, std::uint32_t low, std::uint32_t high) {
+  if (low + 1 == high) return true;
+  std::uint32_t tip = 0;
+  const Point a = point(cavity.chain[low]);
+  const Point b = point(cavity.chain[high]);
+  for (std::uint32_t i = low + 1; i < high; ++i) {
+    const Point c = point(cavity.chain[i]);
+    if (orient(a, b, c) <= 0) continue;
+    if (tip == 0 || in_circle_perturbed(a, b, point(cavity.chain[tip]), c) > 0) tip = i;
+  }
+  if (tip == 0) return false;
+  tips_[low][high] = tip;
+  return plan(cavity, low, tip) && plan(cavity, tip, high);
+}
+
+EdgeId Triangulation::fill_planned(Cavity& cavity, std::uint32_t low, std::uint32_t high) {
+  const std::uint32_t tip = tips_[low][high];
+  const TriangleId t = spare_triangle();
+  const VertexId corners[3] = {cavity.chain[low], cavity.chain[high], cavity.chain[tip]};
+  for (unsigned i = 0; i < 3; ++i) {
+    set_from(edge(t, i), corners[i]);
+    vertex_edges_[corners[i].index()] = edge(t, i);
+  }
+  if (tip + 1 == high) {
+    attach(edge(t, 1), cavity.gaps[tip].beyond);
+  } else {
+    join(edge(t, 1), fill_planned(cavity, tip, high));
+  }
+  if (low + 1 == tip) {
+    attach(edge(t, 2), cavity.gaps[low].beyond);
+  } else {
+    join(edge(t, 2), fill_planned(cavity, low, tip));
+  }
+  return edge(t, 0);
+}
+
+/// The triangles around a vertex are free for new use.
+void Triangulation::gather_star(VertexId v) {
+  spare_.clear();
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    spare_.push_back(triangle(e));
+    e = rotated(e);
+  } while (e != first);
 }
 
 /// Lists the corners around a vertex, counter-clockwise, and the triangles to use again.
@@ -63,20 +132,23 @@ void Triangulation::rate(std::uint32_t i, Point centre) {
   const Point a = point(before);
   const Point b = point(corner.vertex);
   const Point c = point(after);
-  if (orient(a, b, c) <= 0 || orient(a, c, centre) < 0) return;
   const double ax = a.x - centre.x, ay = a.y - centre.y;
   const double bx = b.x - centre.x, by = b.y - centre.y;
   const double cx = c.x - centre.x, cy = c.y - centre.y;
   const double bc = bx * cy - cx * by;
   const double ca = cx * ay - ax * cy;
   const double ab = ax * by - bx * ay;
+  if (orient(a, b, c) <= 0 || orient(a, c, centre) < 0) return;
   const double height =
       (ax * ax + ay * ay) * bc + (bx * bx + by * by) * ca + (cx * cx + cy * cy) * ab;
   const double urgency = height / (bc + ca + ab);
   corner.urgency = std::isfinite(urgency) ? urgency : std::numeric_limits<double>::max();
 }
 
-/// Cuts ears until a triangle is left, or, at the hull, a chain that is convex towards infinity.
+/// Fills the hole ear by ear, in the order in which ears would appear if the vertex were lifted off
+/// the paraboloid (Devillers, "On Deletion in Delaunay Triangulations", 1999). That order is
+/// computed in floating point; flips mend what it gets wrong, and decide ties.
+/// Cuts until a triangle is left, or, at the hull, a chain that is convex towards infinity.
 void Triangulation::cut_ears(Point centre) {
   auto remaining = static_cast<std::uint32_t>(corners_.size());
   std::uint32_t some = 0;
@@ -197,13 +269,8 @@ bool Triangulation::delete_between(VertexId v, EdgeId to_start, EdgeId to_end) {
   const Side kept = side(to_start);
   const bool was_upward = is_upward(twin(to_start));
   sets_.release(side(to_end).set);
-  spare_.clear();
   const Point place = point(v);
-  EdgeId e = to_end;
-  do {
-    spare_.push_back(triangle(e));
-    e = rotated(e);
-  } while (e != to_end);
+  gather_star(v);
   match_gaps();
   const EdgeId there = fill(left_);
   const EdgeId back = fill(right_);
@@ -222,7 +289,7 @@ void Triangulation::gather_half(Cavity& cavity, EdgeId first, EdgeId last) {
   cavity.chain.assign(1, to(first));
   cavity.gaps.clear();
   for (EdgeId e = first; e != last; e = rotated(e)) {
-    cavity.gaps.push_back({.inside = next(e)});
+    cavity.gaps.push_back({.inside = next(e), .beyond = side(next(e))});
     cavity.chain.push_back(to(next(e)));
   }
   std::ranges::reverse(cavity.chain);

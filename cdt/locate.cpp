@@ -29,28 +29,32 @@ Location Triangulation::locate(Point p, EdgeId hint) const {
     while (apex(e) != infinite) e = next(e);
     e = twin(e);
   }
+  const auto side_of = [&](EdgeId side) { return orient(point(from(side)), point(to(side)), p); };
+  int here = side_of(e);  // on which side of e p is, seen from its left
+  if (here < 0) {
+    e = twin(e);
+    if (apex(e) == infinite) return {Location::Kind::outside, e};
+    here = 1;
+  }
   std::uint32_t dice = 0x2545'f491;
-  bool entered = false;  // e is the edge through which the walk came in: p is not beyond it
-  for (;;) {
-    const EdgeId one = (dice & 1) != 0 ? next(e) : prev(e);
-    const EdgeId other = (dice & 1) != 0 ? prev(e) : next(e);
+  for (;;) {  // p is not beyond e
+    const bool turn = (dice & 1) != 0;
+    const EdgeId one = turn ? next(e) : prev(e);
+    const EdgeId other = turn ? prev(e) : next(e);
     dice = dice * 1664525 + 1013904223;
     dice ^= dice >> 16;
-    const auto is_beyond = [&](EdgeId side) {
-      return orient(point(from(side)), point(to(side)), p) < 0;
-    };
-    EdgeId exit;
-    if (is_beyond(one)) {
-      exit = one;
-    } else if (is_beyond(other)) {
+    EdgeId exit = one;
+    const int at_one = side_of(one);
+    if (at_one >= 0) {
+      const int at_other = side_of(other);
+      if (at_other >= 0) {
+        if (here > 0 && at_one > 0 && at_other > 0) return {Location::Kind::triangle, e};
+        return settle(p, e);
+      }
       exit = other;
-    } else if (!entered && is_beyond(e)) {
-      exit = e;
-    } else {
-      return settle(p, e);
     }
     e = twin(exit);
-    entered = true;
+    here = 1;
     if (apex(e) == infinite) return {Location::Kind::outside, e};
   }
 }

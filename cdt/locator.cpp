@@ -82,6 +82,12 @@ void Locator::replace(VertexId v, Point p, VertexId instead) {
   }
 }
 
+void Locator::move(VertexId v, Point p, Point q, VertexId instead) {
+  if (levels_ == 0 || cell(p, levels_ - 1) == cell(q, levels_ - 1)) return;
+  replace(v, p, instead);
+  add(v, q);
+}
+
 VertexId Locator::near(Point p) const {
   for (unsigned level = levels_; level-- > 0;)
     if (const VertexId v = cells_[cell(p, level)]; !v.is_none()) return v;

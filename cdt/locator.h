@@ -27,6 +27,8 @@ class Locator {
   void add(VertexId v, Point p);
   /// `instead` is another vertex nearby, or none.
   void replace(VertexId v, Point p, VertexId instead);
+  /// The same vertex, at q instead of p.
+  void move(VertexId v, Point p, Point q, VertexId instead);
   /// A vertex near p; none if nothing is known.
   [[nodiscard]] VertexId near(Point p) const;
 
@@ -44,9 +46,9 @@ class Locator {
   Box box_;
   double columns_per_unit_ = 0;
   double rows_per_unit_ = 0;
-  unsigned levels_ = 0;                            // the finest grid has 2^levels columns
-  std::size_t laid_out_for_ = 0;                   // vertices
-  std::array<std::size_t, most_levels> first_{};   // where a level's cells begin
+  unsigned levels_ = 0;                           // the finest grid has 2^levels columns
+  std::size_t laid_out_for_ = 0;                  // vertices
+  std::array<std::size_t, most_levels> first_{};  // where a level's cells begin
   std::vector<VertexId> cells_;
 };
 

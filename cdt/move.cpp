@@ -45,8 +45,7 @@ void Triangulation::move_to(ConstraintId id, std::span<const Point> points) {
 void Triangulation::replace(ConstraintId id, std::span<const Point> points) {
   const Ends ends = this->ends(id);
   const Constraint old = constraints_[id.index()];
-  for (std::uint32_t i = 0; i < old.segment_count; ++i)
-    take_off(SegmentId(old.first_segment + i));
+  for (std::uint32_t i = 0; i < old.segment_count; ++i) take_off(SegmentId(old.first_segment + i));
   release_points(id);
   settle_loose();
   free_segments(id);
@@ -83,6 +82,9 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     std::erase_if(still_, [&](std::uint32_t i) { return move_vertex(inserted_[i], points[i]); });
     if (still_.size() == before) break;
   }
+  for (const VertexId v : inserted_)
+    if (has_moved(v)) push_around(v);
+  for (const VertexId v : inserted_) uses_[v.index()] &= ~moved;
   restore_delaunay();
 
   for (const std::uint32_t i : still_) {
@@ -113,6 +115,21 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     if (!stays_[i]) lay(SegmentId(first + i));
 }
 
+/// The edges at a moved vertex and those around it become suspects, each once for all that moved.
+void Triangulation::push_around(VertexId v) {
+  const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    const EdgeId around = next(e);
+    if (!is_constrained(e) && !is_for_other(to(e))) suspects_.push_back(e);
+    if (!is_constrained(around) && !has_moved(from(around)) && !has_moved(to(around)) &&
+        !is_for_other(apex(twin(around))))
+      suspects_.push_back(around);
+    e = rotated(e);
+  } while (e != first);
+}
+
 /// Whether a segment is one edge that nothing else runs along.
 bool Triangulation::is_plain(SegmentId s) const {
   const Segment& segment = this->segment(s);
@@ -128,8 +145,7 @@ bool Triangulation::ends_at(EdgeId e, VertexId v) const {
   return s.from == v || s.to == v;
 }
 
-/// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise; the
-/// edges there become suspects.
+/// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise.
 bool Triangulation::move_vertex(VertexId v, Point p) {
   if (uses_[v.index()] != 1) return false;
   const EdgeId first = edge(v);
@@ -149,10 +165,9 @@ bool Triangulation::move_vertex(VertexId v, Point p) {
       join(e, twin(e), sets_.reversed(side(e).set));
     e = rotated(e);
   } while (e != first);
-  locator_.replace(v, point(v), to(first));
+  locator_.move(v, point(v), p, to(first));
   points_[v.index()] = p;
-  remember(v);
-  push_star(v);
+  uses_[v.index()] |= moved;
   return true;
 }
 

@@ -140,7 +140,8 @@ struct Quotient {
     if (numerator.sign() == 0) return 0;  // never -0
     constexpr double infinity = std::numeric_limits<double>::infinity();
     double result = numerator.estimate() / denominator.estimate();
-    while (true) {
+    constexpr int most_steps = 64;  // more only where tiny numbers underflow and nothing is exact
+    for (int step = 0; step < most_steps; ++step) {
       const double above = std::nextafter(result, infinity);
       const double below = std::nextafter(result, -infinity);
       if (prefers(result, above)) {
@@ -148,9 +149,10 @@ struct Quotient {
       } else if (prefers(result, below)) {
         result = below;
       } else {
-        return result;
+        break;
       }
     }
+    return result;
   }
 };
 

@@ -30,10 +30,12 @@ VertexId nearest_vertex(const Triangulation& mesh, Point p) {
   const EdgeId e = place.edge;
   for (const EdgeId corner : {e, Triangulation::next(e), Triangulation::prev(e)})
     consider(mesh.from(corner));
-  visit_disc(mesh, place, p, [&] { return radius; }, [&](TriangleId t) {
-    for (unsigned corner = 0; corner < 3; ++corner)
-      consider(mesh.from(Triangulation::edge(t, corner)));
-  });
+  visit_disc(
+      mesh, place, p, [&] { return radius; },
+      [&](TriangleId t) {
+        for (unsigned corner = 0; corner < 3; ++corner)
+          consider(mesh.from(Triangulation::edge(t, corner)));
+      });
   return nearest;
 }
 
@@ -137,8 +139,8 @@ class Passer {
         if (!is_beyond_end(mesh_.point(right))) leave_vertex(mesh_.twin(e));
         return;
       }
-      if (right != Triangulation::infinite && left != Triangulation::infinite &&
-          side(right) < 0 && side(left) > 0) {
+      if (right != Triangulation::infinite && left != Triangulation::infinite && side(right) < 0 &&
+          side(left) > 0) {
         passed_.push_back(Triangulation::triangle(e));
         if (!ends_before(Triangulation::next(e))) cross(Triangulation::next(e));
         return;

@@ -8,11 +8,11 @@
 
 namespace loft::cdt {
 
-/// A value for every triangle (by its id), spread from the outside inwards: infinite triangles have `outside`,
-/// and a neighbour across edge e has cross(e, value), where e has the value's triangle on its left.
-/// Edges without passages are passed unchanged.
-/// Precondition: crossing edges leads to the same value on every way (true of anything that adds
-/// up passages of closed polylines). Cost: O(triangles).
+/// A value for every triangle (by its id), spread from the outside inwards: infinite triangles have
+/// `outside`, and a neighbour across edge e has cross(e, value), where e has the value's triangle
+/// on its left. Edges without passages are passed unchanged. Precondition: crossing edges leads to
+/// the same value on every way (true of anything that adds up passages of closed polylines). Cost:
+/// O(triangles).
 template <class Value, class Cross>
 [[nodiscard]] std::vector<Value> flood(const Triangulation& mesh, Value outside, Cross cross) {
   std::vector<Value> values(mesh.triangle_bound(), outside);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -187,8 +188,8 @@ bool Triangulation::is_rightly_on(SegmentId s, VertexId v) const {
   return std::ranges::any_of(around_, [&](SegmentId other) {
     const auto [c, d] = ends_of(other);
     if (other == s || !crosses(a, b, c, d)) return false;
-    const Point crossing = ends_of(other) < ends_of(s) ? intersection(c, d, a, b)
-                                                       : intersection(a, b, c, d);
+    const Point crossing =
+        ends_of(other) < ends_of(s) ? intersection(c, d, a, b) : intersection(a, b, c, d);
     return crossing == place || (epsilon_ > 0 && distance(crossing, place) <= epsilon_);
   });
 }
@@ -220,7 +221,18 @@ void Triangulation::forget_dead_snaps() {
 void Triangulation::straighten(std::size_t known_snaps) {
   if (edited_.empty()) return;
   constexpr double nearly = 64;
+  Box box;
+  for (const auto& [a, b] : edited_) {
+    box.add(a);
+    box.add(b);
+  }
+  const double slack = nearly * doubtful_rounding *
+                       std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
+                                 std::abs(box.high.y)});
   const auto is_near = [&](Point place) {
+    if (place.x < box.low.x - slack || place.x > box.high.x + slack ||
+        place.y < box.low.y - slack || place.y > box.high.y + slack)
+      return false;
     return std::ranges::any_of(edited_, [&](const auto& ends) {
       const auto& [a, b] = ends;
       if (a == b) return are_hardly_apart(a, place);

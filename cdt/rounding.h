@@ -16,9 +16,7 @@ namespace loft::cdt {
 /// relative to the coordinates, order and side are for exact tests to decide.
 inline constexpr double doubtful_rounding = 16 * detail::rounding;
 
-[[nodiscard]] inline double distance(Point p, Point q) {
-  return std::hypot(p.x - q.x, p.y - q.y);
-}
+[[nodiscard]] inline double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
 /// How far p is from the line through a and b, which are different.
 [[nodiscard]] inline double distance_to_line(Point a, Point b, Point p) {

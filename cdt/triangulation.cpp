@@ -26,6 +26,7 @@ Triangulation::Triangulation(double epsilon) : epsilon_(epsilon) {
 
 void Triangulation::clear() {
   edges_.clear();
+  triangle_bound_ = 0;
   edge_sets_.clear();
   constexpr double infinity = std::numeric_limits<double>::infinity();
   points_.assign(1, Point{infinity, infinity});
@@ -45,6 +46,8 @@ void Triangulation::clear() {
   changes_ = {};
   last_ = EdgeId::none();
   only_ = VertexId::none();
+  vertex_count_ = 0;
+  reserved_ = VertexId::none();
   is_flat_ = true;
 }
 
@@ -53,7 +56,6 @@ void Triangulation::reserve(std::size_t vertices) {
   vertex_edges_.reserve(vertices + 1);
   uses_.reserve(vertices + 1);
   edges_.reserve(6 * vertices);
-  edge_sets_.reserve(6 * vertices);
   segments_.reserve(vertices);
 }
 

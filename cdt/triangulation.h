@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -167,9 +169,7 @@ class Triangulation {
   }
 
   /// Vertices there are, without the infinite one.
-  [[nodiscard]] std::size_t vertex_count() const {
-    return points_.size() - 1 - free_vertices_.size();
-  }
+  [[nodiscard]] std::size_t vertex_count() const { return vertex_count_; }
   /// Their ids are above 0, which is the infinite one, and below this.
   [[nodiscard]] std::size_t vertex_bound() const { return points_.size(); }
   [[nodiscard]] bool is_vertex(VertexId v) const {
@@ -177,13 +177,13 @@ class Triangulation {
   }
   /// Triangles there are, infinite ones included.
   [[nodiscard]] std::size_t triangle_count() const {
-    return edges_.size() / 3 - free_triangles_.size();
+    return triangle_bound_ - free_triangles_.size();
   }
-  [[nodiscard]] std::size_t triangle_bound() const { return edges_.size() / 3; }
+  [[nodiscard]] std::size_t triangle_bound() const { return triangle_bound_; }
   [[nodiscard]] bool is_triangle(TriangleId t) const {
     return t.index() < triangle_bound() && !edges_[3 * t.index()].from.is_none();
   }
-  [[nodiscard]] std::size_t edge_bound() const { return edges_.size(); }
+  [[nodiscard]] std::size_t edge_bound() const { return 3 * triangle_bound_; }
 
   /// The edge between two vertices, if there is one. Cost: the smaller degree.
   [[nodiscard]] std::optional<EdgeId> find_edge(VertexId a, VertexId b) const;
@@ -267,11 +267,25 @@ class Triangulation {
   };
   /// A side of a cavity: the edge from chain vertex i to i + 1.
   struct Gap {
-    EdgeId inside;            // the edge here in the triangles that were taken out
-    Side beyond{};            // what they were joined to
-    bool has_mate = false;    // the cavity is on both sides of this edge,
-    std::uint32_t mate = 0;   // at this gap, too
-    EdgeId inner{};           // then: the new edge here, once it is made
+    EdgeId inside;           // the edge here in the triangles that were taken out
+    Side beyond{};           // what they were joined to
+    bool has_mate = false;   // the cavity is on both sides of this edge,
+    std::uint32_t mate = 0;  // at this gap, too
+    EdgeId inner{};          // then: the new edge here, once it is made
+  };
+  /// What filling a large cavity needs, kept from one to the next. A copy begins with none.
+  struct Workshop;
+  class Workshops {
+   public:
+    Workshops() = default;
+    Workshops(const Workshops&) {}
+    Workshops(Workshops&&) = default;
+    Workshops& operator=(const Workshops&) { return *this; }
+    Workshops& operator=(Workshops&&) = default;
+    [[nodiscard]] Workshop& get();
+
+   private:
+    std::shared_ptr<Workshop> one_;
   };
   struct Cavity {
     std::vector<VertexId> chain;
@@ -297,9 +311,12 @@ class Triangulation {
   };
 
   static constexpr std::uint32_t unused = 0xffff'ffff;
+  static constexpr std::uint32_t moved = 0x8000'0000;  // in uses_, during a move
+  static constexpr std::uint32_t most_planned = 9;     // corners of a small hole
 
   [[nodiscard]] bool is_upward(EdgeId e) const { return point(from(e)) < point(to(e)); }
   [[nodiscard]] TriangleId new_triangle();
+  void grow();
   [[nodiscard]] VertexId new_vertex(Point point);
   void free_triangle(TriangleId t);
   void free_vertex(VertexId v);
@@ -311,8 +328,22 @@ class Triangulation {
     const std::uint32_t bits = edges_[e.index()].bits;
     return {bits, (bits & OrientedEdge::constrained) != 0 ? edge_sets_[e.index()] : PassageSet()};
   }
-  void attach(EdgeId e, Side side);
-  void join(EdgeId a, EdgeId b);
+  /// The sets grow only as far as there are constrained edges.
+  [[nodiscard]] PassageSet& set_at(EdgeId e) {
+    if (e.index() >= edge_sets_.size()) edge_sets_.resize(edges_.size());
+    return edge_sets_[e.index()];
+  }
+  /// Puts an edge in the place of another that had this side.
+  void attach(EdgeId e, Side side) {
+    const std::uint32_t flag = side.bits & OrientedEdge::constrained;
+    edges_[e.index()].bits = side.bits;
+    edges_[side.bits & ~OrientedEdge::constrained].bits = e.index() | flag;
+    if (flag != 0) set_at(e) = side.set;
+  }
+  void join(EdgeId a, EdgeId b) {
+    edges_[a.index()].bits = b.index();
+    edges_[b.index()].bits = a.index();
+  }
   void join(EdgeId a, EdgeId b, PassageSet set);
 
   // triangulation.cpp: edits
@@ -339,11 +370,16 @@ class Triangulation {
 
   // vertices.cpp
   void insert_points(std::span<const Point> points);
+  [[nodiscard]] std::vector<VertexId> insert_in_rounds(std::span<const Point> points);
   VertexId insert_near(Point point, EdgeId hint);
   [[nodiscard]] VertexId merge(Location& place, Point point) const;
   [[nodiscard]] EdgeId hint_for(Point point) const;
   void remember(VertexId v);
   [[nodiscard]] VertexId split_at(Location place, Point point);
+  [[nodiscard]] bool has_constrained_edge(TriangleId t) const {
+    const OrientedEdge* e = &edges_[3 * t.index()];
+    return ((e[0].bits | e[1].bits | e[2].bits) & OrientedEdge::constrained) != 0;
+  }
   [[nodiscard]] std::optional<EdgeId> bent_edge_at(TriangleId t, Point point);
   void doubt_others_on(EdgeId e, Point point);
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
@@ -353,6 +389,7 @@ class Triangulation {
   void split_edge(EdgeId e, VertexId v);
   [[nodiscard]] VertexId split_edge_at(EdgeId e, Point place);
   void fan_out(VertexId v);
+  void flip_away(EdgeId e, VertexId v, VertexId d);
   [[nodiscard]] bool can_split(EdgeId e, Point point) const;
   [[nodiscard]] bool should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const;
   void flip(EdgeId e);
@@ -370,6 +407,7 @@ class Triangulation {
   [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
   [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
                                      Obstacle& obstacle) const;
+  void doubt_point_beside(VertexId v, SegmentId s);
   void doubt_beside(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
   void lay_crooked(SegmentId s, VertexId at);
@@ -391,6 +429,7 @@ class Triangulation {
   [[nodiscard]] EdgeId fill(Cavity& cavity);
   [[nodiscard]] EdgeId fill(Cavity& cavity, std::uint32_t low, std::uint32_t high);
   [[nodiscard]] EdgeId fill_large(Cavity& cavity);
+  void copy_triangle(EdgeId in_part);
   [[nodiscard]] std::uint32_t choose_tip(const Cavity& cavity, std::uint32_t low,
                                          std::uint32_t high) const;
   [[nodiscard]] bool opens_towards(const Cavity& cavity, std::uint32_t tip, VertexId low,
@@ -420,6 +459,10 @@ class Triangulation {
   void delete_from_line(VertexId v);
   void gather_half(Cavity& cavity, EdgeId first, EdgeId last);
   [[nodiscard]] bool is_beside(const Cavity& cavity) const;
+  [[nodiscard]] bool fill_small_hole(VertexId v);
+  [[nodiscard]] bool plan(const Cavity& cavity, std::uint32_t low, std::uint32_t high);
+  [[nodiscard]] EdgeId fill_planned(Cavity& cavity, std::uint32_t low, std::uint32_t high);
+  void gather_star(VertexId v);
   void gather_hole(VertexId v);
   void rate(std::uint32_t corner, Point centre);
   void cut_ears(Point centre);
@@ -433,9 +476,12 @@ class Triangulation {
   void move_in_place(ConstraintId id, std::span<const Point> points);
   [[nodiscard]] bool is_plain(SegmentId s) const;
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
+  void push_around(VertexId v);
+  [[nodiscard]] bool has_moved(VertexId v) const { return (uses_[v.index()] & moved) != 0; }
 
   double epsilon_ = 0;
-  std::vector<OrientedEdge> edges_;
+  std::vector<OrientedEdge> edges_;  // some more than triangle_bound_ asks for
+  std::size_t triangle_bound_ = 0;
   std::vector<PassageSet> edge_sets_;  // of constrained edges; the same on both sides
   std::vector<Point> points_;
   std::vector<EdgeId> vertex_edges_;
@@ -452,6 +498,8 @@ class Triangulation {
   std::vector<Snap> snaps_;
   Locator locator_;
   EdgeId last_;
+  std::size_t vertex_count_ = 0;
+  VertexId reserved_;    // the number of the next vertex, where that is not the first free one
   VertexId only_;        // the only vertex, while there is just one
   bool is_flat_ = true;  // no finite triangle yet: all vertices in one line
   bool is_recording_ = false;
@@ -470,12 +518,14 @@ class Triangulation {
   std::vector<Passage> around_passages_;
   std::vector<Corner> corners_;
   std::vector<Ear> ears_;
+  std::array<std::array<std::uint32_t, most_planned>, most_planned> tips_{};
   std::vector<Point> places_;
   std::vector<char> stays_;
   std::vector<std::uint32_t> still_;
   std::vector<std::pair<Point, Point>> edited_;
   Cavity left_;
   Cavity right_;
+  Workshops workshop_;
 };
 
 }  // namespace loft::cdt

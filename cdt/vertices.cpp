@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <bit>
 #include <stdexcept>
+#include <utility>
 
 #include "cdt/disc.h"
 #include "cdt/predicates.h"
@@ -31,18 +32,24 @@ void Triangulation::insert_points(std::span<const Point> points) {
 
 TriangleId Triangulation::new_triangle() {
   TriangleId t;
-  if (free_triangles_.empty()) {
-    t = TriangleId(static_cast<std::uint32_t>(triangle_bound()));
-    if (edges_.size() + 3 > OrientedEdge::constrained)
-      throw std::length_error("a triangulation has at most 2^31 edges");
-    edges_.resize(edges_.size() + 3);
-    edge_sets_.resize(edges_.size());
-  } else {
+  if (!free_triangles_.empty()) {
     t = free_triangles_.back();
     free_triangles_.pop_back();
+  } else {
+    t = TriangleId(static_cast<std::uint32_t>(triangle_bound_));
+    if (edge_bound() >= edges_.size()) grow();
+    ++triangle_bound_;
   }
   if (is_recording_) touched_.push_back({t, false});
   return t;
+}
+
+/// Room for more triangles: a little at a time, so that no memory is touched in vain.
+void Triangulation::grow() {
+  constexpr std::size_t more = 3 * 256;
+  if (edges_.size() + more > OrientedEdge::constrained)
+    throw std::length_error("a triangulation has at most 2^31 edges");
+  edges_.resize(edges_.size() + more);
 }
 
 void Triangulation::free_triangle(TriangleId t) {
@@ -52,6 +59,12 @@ void Triangulation::free_triangle(TriangleId t) {
 }
 
 VertexId Triangulation::new_vertex(Point point) {
+  ++vertex_count_;
+  if (!reserved_.is_none()) {
+    const VertexId v = std::exchange(reserved_, VertexId::none());
+    uses_[v.index()] = 0;
+    return v;
+  }
   if (!free_vertices_.empty()) {
     const VertexId v = free_vertices_.back();
     free_vertices_.pop_back();
@@ -67,23 +80,11 @@ VertexId Triangulation::new_vertex(Point point) {
 }
 
 void Triangulation::free_vertex(VertexId v) {
+  --vertex_count_;
   points_[v.index()] = point(infinite);
   vertex_edges_[v.index()] = EdgeId::none();
   uses_[v.index()] = unused;
   free_vertices_.push_back(v);
-}
-
-/// Puts an edge in the place of another that had this side.
-void Triangulation::attach(EdgeId e, Side side) {
-  edges_[e.index()].bits = side.bits;
-  const std::uint32_t flag = side.bits & OrientedEdge::constrained;
-  edges_[side.bits & ~OrientedEdge::constrained].bits = e.index() | flag;
-  if (flag != 0) edge_sets_[e.index()] = side.set;
-}
-
-void Triangulation::join(EdgeId a, EdgeId b) {
-  edges_[a.index()].bits = b.index();
-  edges_[b.index()].bits = a.index();
 }
 
 void Triangulation::join(EdgeId a, EdgeId b, PassageSet set) {
@@ -93,8 +94,8 @@ void Triangulation::join(EdgeId a, EdgeId b, PassageSet set) {
   }
   edges_[a.index()].bits = b.index() | OrientedEdge::constrained;
   edges_[b.index()].bits = a.index() | OrientedEdge::constrained;
-  edge_sets_[a.index()] = set;
-  edge_sets_[b.index()] = set;
+  set_at(a) = set;
+  set_at(b) = set;
 }
 
 void Triangulation::remember(VertexId v) { locator_.add(v, point(v)); }
@@ -119,7 +120,9 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   if (epsilon_ > 0) {
     if (const VertexId v = merge(place, point); !v.is_none()) return v;
   } else if (place.kind == Location::Kind::triangle) {
-    if (const auto bent = bent_edge_at(triangle(place.edge), point))
+    if (!has_constrained_edge(triangle(place.edge))) {
+      // the commonest case: nothing is bent here
+    } else if (const auto bent = bent_edge_at(triangle(place.edge), point))
       place = {Location::Kind::edge, *bent};
   } else if (place.kind == Location::Kind::edge && is_constrained(place.edge)) {
     doubt_others_on(place.edge, point);
@@ -130,28 +133,30 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   return v;
 }
 
-/// With an epsilon: the nearest vertex that close to a point in no vertex; if there is none, `place`
-/// becomes the nearest constrained edge that close, where that can be split there.
+/// With an epsilon: the nearest vertex that close to a point in no vertex; if there is none,
+/// `place` becomes the nearest constrained edge that close, where that can be split there.
 VertexId Triangulation::merge(Location& place, Point p) const {
   VertexId vertex;
   EdgeId constrained;
   double to_vertex = epsilon_;
   double to_edge = epsilon_;
-  visit_disc(*this, place, p, [&] { return epsilon_; }, [&](TriangleId t) {
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const EdgeId e = edge(t, corner);
-      if (from(e) == infinite) continue;
-      if (const double d = distance(point(from(e)), p); d <= to_vertex) {
-        vertex = from(e);
-        to_vertex = d;
-      }
-      if (!is_constrained(e)) continue;
-      if (const double d = distance_to_segment(point(from(e)), point(to(e)), p); d <= to_edge) {
-        constrained = e;
-        to_edge = d;
-      }
-    }
-  });
+  visit_disc(
+      *this, place, p, [&] { return epsilon_; },
+      [&](TriangleId t) {
+        for (unsigned corner = 0; corner < 3; ++corner) {
+          const EdgeId e = edge(t, corner);
+          if (from(e) == infinite) continue;
+          if (const double d = distance(point(from(e)), p); d <= to_vertex) {
+            vertex = from(e);
+            to_vertex = d;
+          }
+          if (!is_constrained(e)) continue;
+          if (const double d = distance_to_segment(point(from(e)), point(to(e)), p); d <= to_edge) {
+            constrained = e;
+            to_edge = d;
+          }
+        }
+      });
   if (vertex.is_none() && !constrained.is_none() && can_split(constrained, p))
     place = {Location::Kind::edge, constrained};
   return vertex;
@@ -255,7 +260,6 @@ void Triangulation::split_triangle(TriangleId t, VertexId v) {
     set_from(edge(parts[i], 2), v);
     attach(edge(parts[i], 0), sides[i]);
     vertex_edges_[starts[i].index()] = edge(parts[i], 0);
-    suspects_.push_back(edge(parts[i], 0));
   }
   for (unsigned i = 0; i < 3; ++i) join(edge(parts[i], 1), edge(parts[(i + 1) % 3], 2));
   vertex_edges_[v.index()] = edge(t, 2);
@@ -290,55 +294,73 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
       if (sides[i].bits == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
     attach(edge(parts[i], 0), sides[i]);
     vertex_edges_[starts[i].index()] = edge(parts[i], 0);
-    suspects_.push_back(edge(parts[i], 0));
   }
   // A rounded point may lie beyond the ends in the lexicographic order: turn the passages then.
   const auto half = [&](VertexId low, VertexId high, PassageSet passages) {
     const bool upward = !set.is_empty() && point(low) < point(high);
     return upward == was_upward ? passages : sets_.reversed(passages);
   };
-  join(edge(parts[0], 2), edge(parts[1], 1));                         // v-c
+  join(edge(parts[0], 2), edge(parts[1], 1));                               // v-c
   join(edge(parts[1], 2), edge(parts[2], 1), half(v, b, sets_.copy(set)));  // v-b
-  join(edge(parts[2], 2), edge(parts[3], 1));                         // v-d
-  join(edge(parts[3], 2), edge(parts[0], 1), half(a, v, set));        // v-a
+  join(edge(parts[2], 2), edge(parts[3], 1));                               // v-d
+  join(edge(parts[3], 2), edge(parts[0], 1), half(a, v, set));              // v-a
   vertex_edges_[v.index()] = edge(parts[0], 2);
   fan_out(v);
 }
 
-/// Flips edges opposite to the new vertex v, listed in suspects_, until they are Delaunay
-/// (Lawson). Each is at corner 0 of its triangle, v at corner 2; flips keep it so.
-void Triangulation::fan_out(VertexId v) {
-  while (!suspects_.empty()) {
-    const EdgeId e = suspects_.back();
-    suspects_.pop_back();
-    if (is_constrained(e)) continue;
-    const EdgeId f = twin(e);
-    const VertexId a = from(e);
-    const VertexId b = from(f);
-    const VertexId d = apex(f);
-    if (!should_flip(a, b, v, d)) continue;
+/// Whether the edge ab between the triangles (a, b, c) and (b, a, d) is not Delaunay. An infinite
+/// corner stands for a point so far away that circles through it are straight lines.
+inline bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const {
+  if (c == infinite || d == infinite) return false;
+  if (a == infinite) return orient(point(d), point(b), point(c)) > 0;
+  if (b == infinite) return orient(point(c), point(a), point(d)) > 0;
+  return in_circle_perturbed(point(a), point(b), point(c), point(d)) > 0;
+}
 
-    const Side ad = side(next(f));
-    const Side db = side(prev(f));
-    const Side bv = side(next(e));
-    const TriangleId t = triangle(e);
-    const TriangleId u = triangle(f);
-    touch(t);
-    touch(u);
-    set_from(edge(t, 1), d);
-    attach(edge(t, 0), ad);
-    set_from(edge(u, 0), d);
-    set_from(edge(u, 1), b);
-    set_from(edge(u, 2), v);
-    attach(edge(u, 0), db);
-    attach(edge(u, 1), bv);
-    join(edge(t, 1), edge(u, 2));
-    vertex_edges_[a.index()] = edge(t, 0);
-    vertex_edges_[b.index()] = edge(u, 1);
-    vertex_edges_[d.index()] = edge(u, 0);
-    suspects_.push_back(edge(t, 0));
-    suspects_.push_back(edge(u, 0));
+/// Flips the edges opposite to the new vertex v until they are Delaunay (Lawson): once around it,
+/// staying where an edge was flipped, as another is there then. In every triangle the edge is at
+/// corner 0, v at corner 2; flips keep it so.
+void Triangulation::fan_out(VertexId v) {
+  TriangleId t = triangle(edge(v));
+  const VertexId first = from(edge(t, 0));
+  for (;;) {
+    const EdgeId e = edge(t, 0);
+    if (!is_constrained(e)) {
+      const EdgeId f = twin(e);
+      const VertexId d = apex(f);
+      if (should_flip(from(e), from(f), v, d)) {
+        flip_away(e, v, d);
+        continue;
+      }
+    }
+    t = triangle(twin(edge(t, 1)));
+    if (from(edge(t, 0)) == first) break;
   }
+}
+
+/// Turns the edge e between the triangles (a, b, v) and (b, a, d) so that it joins v and d.
+void Triangulation::flip_away(EdgeId e, VertexId v, VertexId d) {
+  const EdgeId f = twin(e);
+  const VertexId a = from(e);
+  const VertexId b = from(f);
+  const Side ad = side(next(f));
+  const Side db = side(prev(f));
+  const Side bv = side(next(e));
+  const TriangleId t = triangle(e);
+  const TriangleId u = triangle(f);
+  touch(t);
+  touch(u);
+  set_from(edge(t, 1), d);
+  attach(edge(t, 0), ad);
+  set_from(edge(u, 0), d);
+  set_from(edge(u, 1), b);
+  set_from(edge(u, 2), v);
+  attach(edge(u, 0), db);
+  attach(edge(u, 1), bv);
+  join(edge(t, 1), edge(u, 2));
+  vertex_edges_[a.index()] = edge(t, 0);
+  vertex_edges_[b.index()] = edge(u, 1);
+  vertex_edges_[d.index()] = edge(u, 0);
 }
 
 /// A new vertex on an edge, or so near that it bends it.
@@ -361,15 +383,6 @@ bool Triangulation::can_split(EdgeId e, Point p) const {
     if (orient(point(from(side)), point(to(side)), p) <= 0) return false;
   }
   return from(e) != infinite && to(e) != infinite;
-}
-
-/// Whether the edge ab between the triangles (a, b, c) and (b, a, d) is not Delaunay. An infinite
-/// corner stands for a point so far away that circles through it are straight lines.
-bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const {
-  if (c == infinite || d == infinite) return false;
-  if (a == infinite) return orient(point(d), point(b), point(c)) > 0;
-  if (b == infinite) return orient(point(c), point(a), point(d)) > 0;
-  return in_circle_perturbed(point(a), point(b), point(c), point(d)) > 0;
 }
 
 /// Turns the diagonal of the two triangles beside e, which must make a convex quadrilateral.

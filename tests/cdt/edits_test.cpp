@@ -34,12 +34,13 @@ Tally judge_scripts(Ground ground, std::size_t scripts, std::size_t edits, std::
 
 class Edits : public testing::TestWithParam<Ground> {};
 
-/// On grids rounding never needs help, elsewhere hardly ever where the exact answer exists.
+/// On grids nothing is within rounding of anything else; where nearly all is, anything goes.
+/// Elsewhere the exact answer may exist and not be found, but hardly ever, and then it is reported.
 void expect_few_snaps(const Tally& tally, Ground ground) {
   if (is_grid(ground)) {
     EXPECT_EQ(tally.only_snapped, 0U);
-  } else {
-    EXPECT_LE(tally.only_snapped, 1 + tally.same_as_reference / 100);
+  } else if (ground != Ground::nearly_equal) {
+    EXPECT_LE(tally.only_snapped - tally.snapped_yet_same, 2 + tally.same_as_reference / 50);
   }
 }
 

@@ -26,7 +26,9 @@ class Decoder {
     ground_ = static_cast<Ground>(byte() % 4);
   }
 
-  [[nodiscard]] bool is_on_grid() const { return ground_ != Ground::nudged; }
+  [[nodiscard]] bool is_on_grid() const {
+    return ground_ == Ground::integers || ground_ == Ground::small_integers;
+  }
 
   [[nodiscard]] Script script() {
     Script script;

@@ -150,7 +150,7 @@ TEST(Clean, MakesLoopsThatMeetOnlyInVertices) {
       cdt::Triangulation mesh;
       insert_loops(region, mesh);
       EXPECT_EQ(mesh.vertex_count(), region.points.size());
-      for (std::uint32_t e = 0; e < mesh.edge_count(); ++e)
+      for (std::uint32_t e = 0; e < mesh.edge_bound(); ++e)
         EXPECT_LE(mesh.passages(cdt::EdgeId(e)).size(), 1U);
     }
   }
