@@ -109,10 +109,11 @@ class Persistence {
         };
         if (!is_usable(point.x) || !is_usable(point.y))
           archive.fail(v, " should have coordinates that are finite and not beyond 1e75");
-        if (uses == Triangulation::unused) archive.fail(v, " has too many uses");
+        if (uses >= Triangulation::moved) archive.fail(v, " has too many uses");
         mesh.points_[v.index()] = point;
         mesh.vertex_edges_[v.index()] = edge;
         mesh.uses_[v.index()] = uses;
+        ++mesh.vertex_count_;
       }
     });
   }
@@ -143,7 +144,7 @@ class Persistence {
         }
         if (mesh.edges_.size() > Triangulation::OrientedEdge::constrained)
           archive.fail("there are too many triangles");
-        mesh.edge_sets_.resize(mesh.edges_.size());
+        ++mesh.triangle_bound_;
       }
     });
   }
@@ -201,7 +202,7 @@ class Persistence {
   static void describe_passages(Archive& archive, Mesh& mesh) {
     std::vector<EdgeId> edges;
     if constexpr (!Archive::is_reading)
-      for (std::uint32_t i = 0; i < mesh.edges_.size(); ++i)
+      for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i)
         if (const EdgeId e(i); mesh.is_constrained(e) && e < mesh.twin(e)) edges.push_back(e);
     EdgeId e;
     std::vector<Passage> passages;
