@@ -42,6 +42,7 @@ struct TriangulateCommand {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::filesystem::path> outputs;
   io::SvgOptions drawing;
+  double epsilon = 0;  ///< in the unit of the input
   bool json = false;
   bool quiet = false;
 };

@@ -8,6 +8,7 @@
 #include "app/commands.h"
 #include "app/terminal.h"
 #include "app/unit.h"
+#include "cdt/triangulation.h"
 #include "io/file.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
@@ -103,6 +104,10 @@ CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
+  sub->add_option("--epsilon", command.epsilon,
+                  "Points and polylines closer than that become one, default 0")
+      ->type_name("DISTANCE")
+      ->check(CLI::Range(0.0, loft::cdt::Triangulation::largest_coordinate));
   sub->add_flag_callback(
       "--no-fill", [&command] { command.drawing.has_fill = false; },
       "Leave regions uncoloured (SVG)");

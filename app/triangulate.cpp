@@ -35,6 +35,7 @@ struct Summary {
   std::size_t constrained_edges = 0;
   std::size_t crossings = 0;  ///< vertices that are no point of the input
   std::size_t regions = 0;    ///< triangles without a constrained edge between them
+  std::size_t snaps = 0;      ///< places where rounding decides
   std::map<std::string, double> seconds;
 };
 
@@ -115,6 +116,9 @@ void say_summary(const TriangulateCommand& command, const Summary& summary, Term
                counted(summary.triangles, "triangle") + ", " +
                counted(summary.constrained_edges, "constrained edge") + ", " +
                counted(summary.crossings, "crossing") + ", " + counted(summary.regions, "region"));
+  if (summary.snaps > 0)
+    terminal.say("rounding decides in " + counted(summary.snaps, "place") +
+                 ": a polyline goes through a vertex hardly beside it, or past one hardly on it");
   for (const auto& output : command.outputs) terminal.say("wrote " + output.string());
 }
 
@@ -135,6 +139,8 @@ std::string to_json(const Summary& summary, const TriangulateCommand& command) {
   json["constrained_edges"] = summary.constrained_edges;
   json["crossings"] = summary.crossings;
   json["regions"] = summary.regions;
+  json["snaps"] = summary.snaps;
+  json["epsilon"] = command.epsilon;
   json["seconds"] = summary.seconds;
   return print(json);
 }
@@ -152,13 +158,14 @@ ExitCode run(const TriangulateCommand& command) {
   const std::vector<io::Polyline> polylines = io::read_polylines(command.inputs);
   seconds["read"] = stopwatch.lap();
 
-  cdt::Triangulation triangulation;
+  cdt::Triangulation triangulation(command.epsilon);
   const auto constraints = insert(triangulation, polylines, terminal);
   seconds["triangulate"] = stopwatch.lap();
 
   go_on(terminal, "number", 0.8);
   const io::PlanarMesh mesh = io::to_planar_mesh(triangulation, constraints);
   Summary summary = summarise(mesh, polylines);
+  summary.snaps = triangulation.snaps().size();
   seconds["number"] = stopwatch.lap();
 
   write_all(command, mesh, terminal);

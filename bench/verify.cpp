@@ -97,13 +97,17 @@ class Coverage {
     if (!start || !goal) return false;
     const double length = std::hypot(b.x - a.x, b.y - a.y);
     const Point ahead{(b.x - a.x) / length, (b.y - a.y) / length};
-    Step at{*start, 0};
-    while (at.vertex != *goal) {
-      const Step step = next(at, a, ahead, {*goal, length});
-      if (step.vertex == at.vertex) return false;
-      at = step;
+    // Where chains run closer than the tolerance, some of the ways on are dead ends: try them all.
+    std::vector<Step> open{{*start, 0}};
+    std::unordered_set<Index> seen{*start};
+    while (!open.empty()) {
+      const Step at = open.back();
+      open.pop_back();
+      if (at.vertex == *goal) return true;
+      for (const Step step : steps_from(at, a, ahead, length))
+        if (seen.insert(step.vertex).second) open.push_back(step);
     }
-    return true;
+    return false;
   }
 
  private:
@@ -120,24 +124,22 @@ class Coverage {
     return *found;
   }
 
-  /// The nearest vertex that a constrained edge leads to from `at`, on the way to the goal; `at`
-  /// if there is none. Every step leads on, so that no walk is endless.
-  [[nodiscard]] Step next(Step at, Point start, Point ahead, Step goal) const {
-    Step nearest{at.vertex, std::numeric_limits<double>::infinity()};
+  /// The vertices on the segment, but for the tolerance, that constrained edges lead to from `at`,
+  /// the nearest last. None is behind by more than the tolerance.
+  [[nodiscard]] std::vector<Step> steps_from(Step at, Point start, Point ahead,
+                                             double length) const {
+    std::vector<Step> steps;
     for (auto way = std::ranges::lower_bound(ways_, Pair{at.vertex, 0});
          way != ways_.end() && way->front() == at.vertex; ++way) {
       const Index to = way->back();
-      if (to == goal.vertex) {
-        if (goal.along < nearest.along) nearest = goal;
-        continue;
-      }
       const Point offset{mesh_.vertices[to].x - start.x, mesh_.vertices[to].y - start.y};
       const double along = offset.x * ahead.x + offset.y * ahead.y;
       const double aside = std::abs(offset.x * ahead.y - offset.y * ahead.x);
-      if (aside > tolerance_ || along <= at.along || along >= goal.along + tolerance_) continue;
-      if (along < nearest.along) nearest = {to, along};
+      if (aside <= tolerance_ && along > at.along - tolerance_ && along < length + tolerance_)
+        steps.push_back({to, along});
     }
-    return nearest;
+    std::ranges::sort(steps, std::greater<>(), &Step::along);
+    return steps;
   }
 
   const PlainMesh& mesh_;

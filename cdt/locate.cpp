@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <cmath>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "cdt/triangulation.h"
@@ -29,34 +30,40 @@ Location Triangulation::locate(Point p, EdgeId hint) const {
     while (apex(e) != infinite) e = next(e);
     e = twin(e);
   }
-  const auto side_of = [&](EdgeId side) { return orient(point(from(side)), point(to(side)), p); };
-  int here = side_of(e);  // on which side of e p is, seen from its left
+  Point a = point(from(e));
+  Point b = point(to(e));
+  int here = orient(a, b, p);  // on which side of e p is, seen from its left
   if (here < 0) {
     e = twin(e);
-    if (apex(e) == infinite) return {Location::Kind::outside, e};
+    std::swap(a, b);
     here = 1;
   }
+  VertexId ahead = apex(e);
+  Point c = point(ahead);
   std::uint32_t dice = 0x2545'f491;
-  for (;;) {  // p is not beyond e
-    const bool turn = (dice & 1) != 0;
-    const EdgeId one = turn ? next(e) : prev(e);
-    const EdgeId other = turn ? prev(e) : next(e);
+  while (ahead != infinite) {  // p is not beyond e, which goes from a to b; c is at the apex
+    // Both ways out are looked at before it is known which to take: memory is slow to answer.
+    const EdgeId ways[2] = {twin(next(e)), twin(prev(e))};
+    const VertexId apexes[2] = {apex(ways[0]), apex(ways[1])};
+    const Point corners[2] = {point(apexes[0]), point(apexes[1])};
+    unsigned way = dice & 1;
     dice = dice * 1664525 + 1013904223;
     dice ^= dice >> 16;
-    EdgeId exit = one;
-    const int at_one = side_of(one);
-    if (at_one >= 0) {
-      const int at_other = side_of(other);
-      if (at_other >= 0) {
-        if (here > 0 && at_one > 0 && at_other > 0) return {Location::Kind::triangle, e};
+    const auto side = [&] { return way == 0 ? orient(b, c, p) : orient(c, a, p); };
+    if (const int one = side(); one >= 0) {
+      way ^= 1;
+      if (const int other = side(); other >= 0) {
+        if (here > 0 && one > 0 && other > 0) return {Location::Kind::triangle, e};
         return settle(p, e);
       }
-      exit = other;
     }
-    e = twin(exit);
+    (way == 0 ? a : b) = c;
+    e = ways[way];
+    ahead = apexes[way];
+    c = corners[way];
     here = 1;
-    if (apex(e) == infinite) return {Location::Kind::outside, e};
   }
+  return {Location::Kind::outside, e};
 }
 
 /// p is in the closed triangle left of e: inside, on which edge, or on which corner?

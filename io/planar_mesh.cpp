@@ -102,7 +102,7 @@ class PlanarMeshMaker {
 
   [[nodiscard]] Course course_of(const NamedConstraint& constraint) const {
     Course course{constraint.name, 0, {number_of(mesh_.first_vertex(constraint.id))}};
-    for (const EdgeId e : pieces_of(mesh_, constraint.id))
+    for (const EdgeId e : mesh_.pieces(constraint.id))
       course.vertices.push_back(number_of(mesh_.to(e)));
     return course;
   }

@@ -55,6 +55,23 @@ TEST(Triangulate, ReportsAsJson) {
   }
 }
 
+TEST(Triangulate, MergesWhatIsCloserThanEpsilon) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.txt", "2 0\n0 0\n10 0\n1 0\n5 0.01\n1 0\n10.01 0\n"));
+  const auto report = [&](const std::string& options) {
+    const Outcome outcome = run(folder, "triangulate in.txt -o a.json --json --quiet " + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return nlohmann::json::parse(outcome.out);
+  };
+  EXPECT_EQ(report("")["vertices"], 4);
+  EXPECT_EQ(report("")["constrained_edges"], 1);
+  EXPECT_EQ(report("")["snaps"], 0);
+  EXPECT_EQ(report("--epsilon 0.1")["vertices"], 3);
+  EXPECT_EQ(report("--epsilon 0.1")["constrained_edges"], 2);
+  EXPECT_EQ(run(folder, "triangulate in.txt -o a.json --epsilon -1").exit_code, 2);
+  EXPECT_EQ(run(folder, "triangulate in.txt -o a.json --epsilon much").exit_code, 2);
+}
+
 TEST(Triangulate, ReadsSeveralFilesAndStandardInput) {
   const Folder folder;
   static_cast<void>(folder.write("a.geojson", map));
