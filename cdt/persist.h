@@ -10,7 +10,7 @@ namespace loft::cdt {
 /// How a triangulation is written.
 enum class Form {
   text,    ///< lines to read, to compare and to mend by hand
-  binary,  ///< about a third of the size, ten times as fast, with a checksum
+  binary,  ///< about half the size, somewhat faster, and with a checksum
 };
 
 /// Writes the whole state of a triangulation, so that load() gives one that cannot be told from it:
