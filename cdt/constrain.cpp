@@ -298,9 +298,9 @@ VertexId Triangulation::snap(EdgeId e, Point place, SegmentId s) {
 void Triangulation::reroute(EdgeId e, VertexId through) {
   if (apex(e) != through) e = twin(e);
   const bool was_upward = is_upward(e);
-  const PassageSet moved = side(e).set;
+  const PassageSet rerouted = side(e).set;
   around_passages_.assign(passages(e).begin(), passages(e).end());
-  sets_.release(moved);
+  sets_.release(rerouted);
   for (const EdgeId side : {twin(prev(e)), twin(next(e))}) {  // from(e) -> apex -> to(e)
     PassageSet set = this->side(side).set;
     for (const Passage passage : around_passages_)

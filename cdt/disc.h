@@ -21,6 +21,11 @@ void visit_disc(const Triangulation& mesh, Location place, Point p, Radius radiu
     if (mesh.to(e) == Triangulation::infinite) return distance(mesh.point(mesh.from(e)), p);
     return distance_to_segment(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), p);
   };
+  /// By how much rounding may have made that too large.
+  const auto doubt_about = [&](EdgeId e) {
+    const VertexId v = mesh.from(e) == Triangulation::infinite ? mesh.to(e) : mesh.from(e);
+    return 8 * detail::rounding * distance(mesh.point(v), p);
+  };
   const auto enter = [&](EdgeId e) {
     const TriangleId t = Triangulation::triangle(e);
     if (!seen.insert(t).second) return;
@@ -49,7 +54,7 @@ void visit_disc(const Triangulation& mesh, Location place, Point p, Radius radiu
   while (!front.empty()) {
     const EdgeId e = front.back();
     front.pop_back();
-    if (distance_to(e) <= radius()) enter(mesh.twin(e));
+    if (distance_to(e) - doubt_about(e) <= radius()) enter(mesh.twin(e));
   }
 }
 

@@ -28,12 +28,21 @@ bool Locator::is_outgrown(std::size_t vertices, Point p) const {
 
 void Locator::lay_out(std::span<const Point> points, std::size_t used) {
   const auto is_used = [](Point p) { return std::isfinite(p.x) && std::isfinite(p.y); };
-  box_ = {};
+  Box box;
   for (const Point p : points)
-    if (is_used(p)) box_.add(p);
+    if (is_used(p)) box.add(p);
   laid_out_for_ = used;
-  levels_ = 1;
-  while (levels_ + 1 < most_levels && (std::size_t{2} << (2 * levels_)) < used) ++levels_;
+  unsigned levels = 1;
+  while (levels + 1 < most_levels && (std::size_t{2} << (2 * levels)) < used) ++levels;
+  set_out(levels, box);
+  for (std::uint32_t v = 0; v < points.size(); ++v)
+    if (is_used(points[v])) add(VertexId(v), points[v]);
+}
+
+/// Empty grids of so many levels.
+void Locator::set_out(unsigned levels, Box box) {
+  box_ = box;
+  levels_ = levels;
   std::size_t cells = 0;
   for (unsigned level = 0; level < levels_; ++level) {
     first_[level] = cells;
@@ -43,8 +52,6 @@ void Locator::lay_out(std::span<const Point> points, std::size_t used) {
   const double columns = static_cast<double>(1U << levels_);
   columns_per_unit_ = columns / std::max(box_.high.x - box_.low.x, 1e-300);
   rows_per_unit_ = columns / std::max(box_.high.y - box_.low.y, 1e-300);
-  for (std::uint32_t v = 0; v < points.size(); ++v)
-    if (is_used(points[v])) add(VertexId(v), points[v]);
 }
 
 /// Row by row; places outside the box count to its border.

@@ -33,7 +33,10 @@ class Locator {
   [[nodiscard]] VertexId near(Point p) const;
 
  private:
+  friend class Persistence;
   static constexpr unsigned most_levels = 14;
+
+  void set_out(unsigned levels, Box box);
 
   [[nodiscard]] bool contains(Point p) const {
     return p.x >= box_.low.x && p.x <= box_.high.x && p.y >= box_.low.y && p.y <= box_.high.y;

@@ -2,6 +2,7 @@
 #include "cdt/queries.h"
 
 #include <limits>
+#include <utility>
 
 #include "cdt/disc.h"
 #include "cdt/predicates.h"
@@ -53,7 +54,7 @@ class Passer {
       case Location::Kind::nowhere:
         break;
       case Location::Kind::vertex:
-        leave_vertex(place.edge);
+        at_ = place.edge;
         break;
       case Location::Kind::edge:
         leave_edge(place.edge);
@@ -65,6 +66,7 @@ class Passer {
         enter_hull(place.edge);
         break;
     }
+    while (!at_.is_none()) leave_vertex(std::exchange(at_, EdgeId::none()));
     return std::move(passed_);
   }
 
@@ -94,7 +96,7 @@ class Passer {
         return;
       }
       if (from == 0 && is_ahead(mesh_.from(e), a_)) {
-        if (!is_beyond_end(mesh_.point(mesh_.from(e)))) leave_vertex(e);
+        if (!is_beyond_end(mesh_.point(mesh_.from(e)))) at_ = e;
         return;
       }
     }
@@ -105,7 +107,7 @@ class Passer {
     const int to = side(mesh_.to(e));
     if (to == 0) {
       if (!is_ahead(mesh_.to(e), a_)) e = mesh_.twin(e);
-      if (!is_beyond_end(mesh_.point(mesh_.to(e)))) leave_vertex(mesh_.twin(e));
+      if (!is_beyond_end(mesh_.point(mesh_.to(e)))) at_ = mesh_.twin(e);
       return;
     }
     cross(to > 0 ? e : mesh_.twin(e));
@@ -120,7 +122,7 @@ class Passer {
       passed_.push_back(Triangulation::triangle(f));
       const int beside = side(ahead);
       if (beside == 0) {
-        if (!is_beyond_end(mesh_.point(ahead))) leave_vertex(Triangulation::prev(f));
+        if (!is_beyond_end(mesh_.point(ahead))) at_ = Triangulation::prev(f);
         return;
       }
       e = beside > 0 ? Triangulation::next(f) : Triangulation::prev(f);
@@ -136,7 +138,7 @@ class Passer {
       const VertexId right = mesh_.to(e);
       const VertexId left = mesh_.apex(e);
       if (right != Triangulation::infinite && side(right) == 0 && is_ahead(right, place)) {
-        if (!is_beyond_end(mesh_.point(right))) leave_vertex(mesh_.twin(e));
+        if (!is_beyond_end(mesh_.point(right))) at_ = mesh_.twin(e);
         return;
       }
       if (right != Triangulation::infinite && left != Triangulation::infinite && side(right) < 0 &&
@@ -170,9 +172,9 @@ class Passer {
       return;
     }
     if (side(mesh_.from(best)) == 0) {
-      leave_vertex(best);
+      at_ = best;
     } else if (side(mesh_.to(best)) == 0) {
-      leave_vertex(mesh_.twin(best));
+      at_ = mesh_.twin(best);
     } else {
       cross(best);
     }
@@ -184,7 +186,7 @@ class Passer {
     do {
       const VertexId v = mesh_.from(e);
       if (side(v) == 0 && is_ahead(v, a_) && !is_beyond_end(mesh_.point(v))) {
-        leave_vertex(e);
+        at_ = e;
         return;
       }
       e = Triangulation::next(mesh_.twin(Triangulation::next(e)));
@@ -194,6 +196,7 @@ class Passer {
   const Triangulation& mesh_;
   Point a_;
   Point b_;
+  EdgeId at_;  // from a vertex on the line, where the segment has not ended yet
   std::vector<TriangleId> passed_;
 };
 

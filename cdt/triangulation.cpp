@@ -2,32 +2,17 @@
 #include "cdt/triangulation.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
 
+#include "cdt/blocks.h"
 #include "cdt/predicates.h"
 
 namespace loft::cdt {
 
 namespace {
-
-/// Blocks of segments come in sizes that grow by a quarter at most, so that those of removed
-/// constraints fit others.
-struct SizeClass {
-  std::uint32_t index;
-  std::uint32_t size;
-};
-
-/// The smallest that holds so many.
-SizeClass size_class(std::uint32_t count) {
-  if (count <= 8) return {count, count};
-  const auto shift = static_cast<std::uint32_t>(std::bit_width(count - 1)) - 3;
-  const std::uint32_t quarters = (count - 1) >> shift;  // 4 ... 7
-  return {8 + 4 * (shift - 1) + (quarters - 3), (quarters + 1) << shift};
-}
 
 constexpr std::uint32_t no_block = 0xffff'ffff;
 
@@ -54,7 +39,7 @@ void Triangulation::clear() {
   free_triangles_.clear();
   free_vertices_.clear();
   free_constraints_.clear();
-  free_segments_.assign(8 + 4 * 32, no_block);
+  free_segments_.assign(size_classes, no_block);
   dense_segments_ = no_block;
   snaps_.clear();
   locator_.clear();

@@ -236,6 +236,8 @@ class Triangulation {
   [[nodiscard]] std::span<const Snap> snaps() const { return snaps_; }
 
  private:
+  friend class Persistence;
+
   /// `bits`: the twin, and in the highest bit whether there are passages.
   struct OrientedEdge {
     static constexpr std::uint32_t constrained = 0x8000'0000;
