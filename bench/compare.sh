@@ -83,9 +83,9 @@ while [ "$round" -lt "$runs" ]; do
   done
   both batch-w3b "$plain" batch w3b 1
   both D1 "$plus" move w2 1455 200 0.002 0.001 2
-  run D1 step "$loft" step w2 1455 200 0.002 0.001
+  run D1 step "$loft" step w2 1455 200 0.0002 0.0001
   both D2 "$plus" move w1 17 500 0.0002 0.0001 2
-  run D2 step "$loft" step w1 17 500 0.0002 0.0001
+  run D2 step "$loft" step w1 17 500 0.00002 0.00001
   both D3-w2s "$plus" all w2s 2
   run D3-w2 loft "$loft" all w2 2  # CGAL's crashes
   both D4-w3b "$hier" poly6 w3b 1000 1

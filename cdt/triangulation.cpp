@@ -61,11 +61,14 @@ void Triangulation::reserve(std::size_t vertices) {
 
 // --- Edits ---
 
+bool Triangulation::is_usable(Point p) {
+  return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
+}
+
 void Triangulation::check_usable(std::span<const Point> points) {
   if (points.empty()) throw std::invalid_argument("a constraint needs a point");
-  const auto is_usable = [](double x) { return std::abs(x) <= largest_coordinate; };
   for (const Point p : points)
-    if (!is_usable(p.x) || !is_usable(p.y))
+    if (!is_usable(p))
       throw std::invalid_argument("a constraint needs coordinates that are finite and below 1e75");
 }
 
@@ -123,7 +126,7 @@ VertexId Triangulation::insert(Point point) {
 }
 
 std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
-  if (!can_split(e, point)) return {};
+  if (!is_usable(point) || !can_split(e, point)) return {};
   begin_edit();
   const VertexId v = split_at({Location::Kind::edge, e}, point);
   ++uses_[v.index()];
@@ -132,7 +135,7 @@ std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
 }
 
 std::optional<VertexId> Triangulation::split(TriangleId t, Point point) {
-  if (is_infinite(t)) return {};
+  if (!is_usable(point) || is_infinite(t)) return {};
   for (unsigned corner = 0; corner < 3; ++corner) {
     const EdgeId e = edge(t, corner);
     if (orient(this->point(from(e)), this->point(to(e)), point) <= 0) return {};

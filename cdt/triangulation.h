@@ -347,6 +347,7 @@ class Triangulation {
   void join(EdgeId a, EdgeId b, PassageSet set);
 
   // triangulation.cpp: edits
+  [[nodiscard]] static bool is_usable(Point point);
   static void check_usable(std::span<const Point> points);
   void check_known(ConstraintId id) const;
   void begin_edit();

@@ -193,11 +193,13 @@ TEST(Triangulation, SplitsEdgesAndTrianglesOnlyWhereTheyStayProper) {
   const TriangleId inside = Triangulation::triangle(mesh.locate({1, 1}).edge);
   EXPECT_FALSE(mesh.split(inside, {5, 5}));
   EXPECT_FALSE(mesh.split(inside, {2, 2}));
+  EXPECT_FALSE(mesh.split(inside, {std::numeric_limits<double>::quiet_NaN(), 1}));
   ASSERT_TRUE(mesh.split(inside, {1, 1}));
   const auto edge =
       mesh.find_edge(mesh.from(mesh.locate({0, 0}).edge), mesh.from(mesh.locate({4, 0}).edge));
   ASSERT_TRUE(edge);
   EXPECT_FALSE(mesh.split(*edge, {2, 3}));
+  EXPECT_FALSE(mesh.split(*edge, {2, -std::numeric_limits<double>::infinity()}));
   ASSERT_TRUE(mesh.split(*edge, {2, 0}));
   EXPECT_EQ(mesh.pieces(SegmentId(0)).size(), 2U);
   EXPECT_EQ(first_fault(mesh), "");
