@@ -18,16 +18,20 @@ if(CMAKE_VERIFY_INTERFACE_HEADER_SETS)
   set_tests_properties(style.headers PROPERTIES LABELS style)
 endif()
 
-# The example in README.md compiles and runs.
-set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/README.md)
-file(READ ${root}/README.md readme)
-if(NOT readme MATCHES "```cpp\n([^`]+)```")
-  message(FATAL_ERROR "README.md has no ```cpp example")
-endif()
-file(CONFIGURE OUTPUT readme_example.cpp CONTENT "${CMAKE_MATCH_1}" @ONLY)
-add_executable(readme_example ${CMAKE_CURRENT_BINARY_DIR}/readme_example.cpp)
-target_link_libraries(readme_example PRIVATE loft::io)
-add_test(NAME readme.example COMMAND readme_example WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+# readme_example(NAME FILE LIBRARY): the first C++ example in FILE compiles and runs.
+function(readme_example name file library)
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${root}/${file})
+  file(READ ${root}/${file} readme)
+  if(NOT readme MATCHES "```cpp\n([^`]+)```")
+    message(FATAL_ERROR "${file} has no ```cpp example")
+  endif()
+  file(CONFIGURE OUTPUT ${name}_example.cpp CONTENT "${CMAKE_MATCH_1}" @ONLY)
+  add_executable(${name}_example ${CMAKE_CURRENT_BINARY_DIR}/${name}_example.cpp)
+  target_link_libraries(${name}_example PRIVATE ${library})
+  add_test(NAME readme.${name} COMMAND ${name}_example WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+endfunction()
+readme_example(loft README.md loft::io)
+readme_example(cdt cdt/README.md loft::cdt)
 
 # A project that uses loft builds and runs: with loft installed, and with loft as a subdirectory
 # (its lowest layer only; the others would all be compiled again).
