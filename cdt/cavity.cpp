@@ -135,22 +135,25 @@ EdgeId Triangulation::fill_large(Cavity& cavity) {
 /// The triangle left of an edge of the part, made here.
 void Triangulation::copy_triangle(EdgeId e) {
   auto& [part, places, vertex_of, made, front] = workshop_.get();
-  const TriangleId t = spare_triangle();
-  for (unsigned i = 0; i < 3; ++i) {
-    const VertexId v = vertex_of[part.from(e).index()];
-    const EdgeId here = edge(t, i);
-    set_from(here, v);
-    vertex_edges_[v.index()] = here;
-    made[e.index()] = here;
+  const auto corner = [&](EdgeId at) { return vertex_of[part.from(at).index()]; };
+  const TriangleId t = spare_triangle(corner(e), corner(next(e)), corner(prev(e)));
+  for (unsigned i = 0; i < 3; ++i, e = next(e)) {
+    made[e.index()] = edge(t, i);
     front.push_back(e);
-    e = next(e);
   }
 }
 
-TriangleId Triangulation::spare_triangle() {
+/// One of the triangles that are free for new use, with new corners; its sides are yet to be
+/// joined.
+TriangleId Triangulation::spare_triangle(VertexId a, VertexId b, VertexId c) {
   const TriangleId t = spare_.back();
   spare_.pop_back();
   touch(t);
+  const VertexId corners[3] = {a, b, c};
+  for (unsigned i = 0; i < 3; ++i) {
+    set_from(edge(t, i), corners[i]);
+    vertex_edges_[corners[i].index()] = edge(t, i);
+  }
   return t;
 }
 
@@ -158,12 +161,7 @@ TriangleId Triangulation::spare_triangle() {
 /// its left. Returns that edge, inside the polygon.
 EdgeId Triangulation::fill(Cavity& cavity, std::uint32_t low, std::uint32_t high) {
   const std::uint32_t tip = choose_tip(cavity, low, high);
-  const TriangleId t = spare_triangle();
-  const VertexId corners[3] = {cavity.chain[low], cavity.chain[high], cavity.chain[tip]};
-  for (unsigned i = 0; i < 3; ++i) {
-    set_from(edge(t, i), corners[i]);
-    vertex_edges_[corners[i].index()] = edge(t, i);
-  }
+  const TriangleId t = spare_triangle(cavity.chain[low], cavity.chain[high], cavity.chain[tip]);
   if (tip + 1 == high) {
     close(cavity, tip, edge(t, 1));
   } else {

@@ -21,12 +21,12 @@ constexpr int most_detours = 32;
 void Triangulation::lay(SegmentId s) {
   const Segment segment = this->segment(s);
   if (segment.from == segment.to) return;
-  if (const EdgeId e = edge_between(segment.from, segment.to); !e.is_none()) {
-    mark(e, s);
-    return;
-  }
   if (epsilon_ > 0) {
     lay_crooked(s, segment.from);
+    return;
+  }
+  if (const EdgeId e = edge_between(segment.from, segment.to); !e.is_none()) {
+    mark(e, s);
     return;
   }
   const Point a = point(segment.from);
@@ -81,17 +81,6 @@ void Triangulation::doubt_beside(VertexId from, VertexId to, SegmentId s) {
   if (e.is_none()) return;
   for (const VertexId v : {apex(e), apex(twin(e))})
     if (v != infinite && is_hardly_beside(point(from), point(to), point(v))) doubt(s, point(v));
-}
-
-/// The edge between two vertices if it is there, or none. Cost: the degree.
-EdgeId Triangulation::edge_between(VertexId from, VertexId to) const {
-  const EdgeId first = edge(from);
-  EdgeId e = first;
-  do {
-    if (this->to(e) == to) return e;
-    e = rotated(e);
-  } while (e != first);
-  return EdgeId::none();
 }
 
 /// The vertex at which s goes through the constrained edge e: an end of it, a vertex beside it
@@ -208,7 +197,8 @@ EdgeId Triangulation::first_crossed(VertexId from, VertexId to, Point a, Point b
 
 /// The way of last resort: to each vertex on the way straight from the one before, wherever that
 /// is. A split point is off the straight line by its rounding, so each becomes a goal of its own
-/// that is walked to anew.
+/// that is walked to anew. With an epsilon this is the only way, as vertices nearby are goals, too;
+/// then each step must lead on along the segment, but for a few.
 void Triangulation::lay_crooked(SegmentId s, VertexId at) {
   const Segment segment = this->segment(s);
   if (epsilon_ == 0) doubt(s, point(at));
@@ -226,7 +216,14 @@ void Triangulation::lay_crooked(SegmentId s, VertexId at) {
       return;
     }
     const Obstacle obstacle = walk(at, goal, point(at), point(goal));
-    if (epsilon_ > 0 && goes_by(at, goal, obstacle)) continue;
+    if (epsilon_ > 0) {
+      const VertexId nearby = nearby_before(goal, at, s, obstacle);
+      if (!nearby.is_none()) {
+        goals_.push_back(nearby);
+        continue;
+      }
+    }
+    const double before = along(s, at);
     switch (obstacle.kind) {
       case Obstacle::Kind::edge_along:
         mark(obstacle.edge, s);
@@ -234,8 +231,10 @@ void Triangulation::lay_crooked(SegmentId s, VertexId at) {
         break;
       case Obstacle::Kind::constrained_edge: {
         const std::size_t doubts = snaps_.size();
-        goals_.push_back(cross(obstacle.edge, s));
-        if (snaps_.size() > doubts) ++detours;
+        const VertexId crossing = cross(obstacle.edge, s);
+        const bool leads_on = crossing != at && (epsilon_ == 0 || along(s, crossing) > before);
+        if (snaps_.size() > doubts || !leads_on) ++detours;
+        goals_.push_back(crossing);
         break;
       }
       case Obstacle::Kind::vertex:
@@ -246,7 +245,16 @@ void Triangulation::lay_crooked(SegmentId s, VertexId at) {
         follow_corridor(at, segment.to, s);
         return;
     }
+    if (epsilon_ > 0 && obstacle.kind != Obstacle::Kind::constrained_edge && along(s, at) <= before)
+      ++detours;
   }
+}
+
+/// How far along a segment a vertex is, in no particular unit.
+double Triangulation::along(SegmentId s, VertexId v) const {
+  const Point a = point(segment(s).from);
+  const Point b = point(segment(s).to);
+  return (point(v).x - a.x) * (b.x - a.x) + (point(v).y - a.y) * (b.y - a.y);
 }
 
 /// Makes a vertex where segment s crosses the constrained edge e, or finds the vertex to go
@@ -310,6 +318,8 @@ void Triangulation::reroute(EdgeId e, VertexId through) {
     touch(triangle(twin(side)));
   }
   join(e, twin(e));
+  touch(triangle(e));
+  touch(triangle(twin(e)));
   suspects_.push_back(e);
   restore_delaunay();
 }
@@ -341,41 +351,35 @@ void Triangulation::follow_corridor(VertexId at, VertexId goal, SegmentId s) {
   }
 }
 
-/// With an epsilon: what is in the way before an obstacle because it is nearly there. Pushes it on
-/// goals_ and says so.
-bool Triangulation::goes_by(VertexId at, VertexId goal, const Obstacle& obstacle) {
-  const Point a = point(at);
-  const Point b = point(goal);
-  const Point way{b.x - a.x, b.y - a.y};
-  const double length = std::hypot(way.x, way.y);
-  VertexId nearest = goal;
-  double shortest = length;
+/// With an epsilon: the first vertex that the straight way to a goal passes closer than that, if it
+/// is further along the segment than `at` and not as far as the goal; else none. It is one of those
+/// that the way comes by before the obstacle.
+VertexId Triangulation::nearby_before(VertexId goal, VertexId at, SegmentId s,
+                                      const Obstacle& obstacle) const {
+  VertexId nearest;
+  double shortest = along(s, goal);
+  const double start = along(s, at);
   const auto consider = [&](VertexId v) {
-    if (v == infinite || v == at || v == goal) return;
-    const Point d{point(v).x - a.x, point(v).y - a.y};
-    const double along = (d.x * way.x + d.y * way.y) / length;
-    const double beside = std::abs(d.x * way.y - d.y * way.x) / length;
-    if (beside > epsilon_ || !(along > 0) || along >= shortest) return;
+    if (v == infinite || v == at || v == goal || v == obstacle.vertex) return;
+    const double here = along(s, v);
+    if (here <= start || here >= shortest) return;
+    if (distance_to_segment(point(at), point(goal), point(v)) > epsilon_) return;
     nearest = v;
-    shortest = along;
+    shortest = here;
   };
-  const auto consider_edge = [&](EdgeId e) {
+  for (const EdgeId e : crossed_) {
     consider(from(e));
     consider(to(e));
-  };
-  for (const EdgeId e : crossed_) consider_edge(e);
-  if (obstacle.kind == Obstacle::Kind::constrained_edge) consider_edge(obstacle.edge);
-  if (obstacle.kind == Obstacle::Kind::vertex) consider(obstacle.vertex);
-  if (obstacle.kind == Obstacle::Kind::edge_along) {
-    consider(to(obstacle.edge));
-    consider(apex(obstacle.edge));
-    consider(apex(twin(obstacle.edge)));
-    if (nearest == to(obstacle.edge)) return false;
   }
-  if (nearest == goal) return false;
-  if (obstacle.kind == Obstacle::Kind::vertex && nearest == obstacle.vertex) return false;
-  goals_.push_back(nearest);
-  return true;
+  if (obstacle.kind == Obstacle::Kind::constrained_edge) {
+    consider(from(obstacle.edge));
+    consider(to(obstacle.edge));
+  } else if (obstacle.kind == Obstacle::Kind::edge_along) {
+    const VertexId ahead = to(obstacle.edge);
+    for (const VertexId v : {apex(obstacle.edge), apex(twin(obstacle.edge))})
+      if (along(s, v) < along(s, ahead)) consider(v);
+  }
+  return nearest;
 }
 
 }  // namespace loft::cdt

@@ -76,12 +76,7 @@ bool Triangulation::plan(const Cavity& cavity, std::uint32_t low, std::uint32_t 
 
 EdgeId Triangulation::fill_planned(Cavity& cavity, std::uint32_t low, std::uint32_t high) {
   const std::uint32_t tip = tips_[low][high];
-  const TriangleId t = spare_triangle();
-  const VertexId corners[3] = {cavity.chain[low], cavity.chain[high], cavity.chain[tip]};
-  for (unsigned i = 0; i < 3; ++i) {
-    set_from(edge(t, i), corners[i]);
-    vertex_edges_[corners[i].index()] = edge(t, i);
-  }
+  const TriangleId t = spare_triangle(cavity.chain[low], cavity.chain[high], cavity.chain[tip]);
   if (tip + 1 == high) {
     attach(edge(t, 1), cavity.gaps[tip].beyond);
   } else {
@@ -198,12 +193,7 @@ void Triangulation::cut_ears(Point centre) {
 void Triangulation::cut_ear(std::uint32_t i) {
   const Corner& ear = corners_[i];
   Corner& before = corners_[ear.prev];
-  const TriangleId t = spare_triangle();
-  const VertexId around[3] = {before.vertex, ear.vertex, corners_[ear.next].vertex};
-  for (unsigned corner = 0; corner < 3; ++corner) {
-    set_from(edge(t, corner), around[corner]);
-    vertex_edges_[around[corner].index()] = edge(t, corner);
-  }
+  const TriangleId t = spare_triangle(before.vertex, ear.vertex, corners_[ear.next].vertex);
   attach(edge(t, 0), before.side);
   attach(edge(t, 1), ear.side);
   suspects_.push_back(edge(t, 2));
@@ -227,12 +217,7 @@ void Triangulation::close_hole(std::uint32_t some) {
   bool is_flat = corner.vertex == infinite;
   for (; corners_[i].next != start; i = corners_[i].next) {
     const Corner& x = corners_[i];
-    const VertexId around[3] = {corner.vertex, x.vertex, corners_[x.next].vertex};
-    const TriangleId t = spare_triangle();
-    for (unsigned k = 0; k < 3; ++k) {
-      set_from(edge(t, k), around[k]);
-      vertex_edges_[around[k].index()] = edge(t, k);
-    }
+    const TriangleId t = spare_triangle(corner.vertex, x.vertex, corners_[x.next].vertex);
     is_flat = is_flat && is_infinite(TriangleId((x.side.bits & ~OrientedEdge::constrained) / 3));
     attach(edge(t, 0), previous);
     attach(edge(t, 1), x.side);

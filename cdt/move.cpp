@@ -138,20 +138,14 @@ bool Triangulation::is_plain(SegmentId s) const {
          passages(e)[0].segment() == s;
 }
 
-/// Whether the only thing along an edge is a segment that ends at v.
-bool Triangulation::ends_at(EdgeId e, VertexId v) const {
-  if (passages(e).size() != 1) return false;
-  const Segment& s = segment(passages(e)[0].segment());
-  return s.from == v || s.to == v;
-}
-
 /// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise.
 bool Triangulation::move_vertex(VertexId v, Point p) {
   if (uses_[v.index()] != 1) return false;
   const EdgeId first = edge(v);
   EdgeId e = first;
   do {
-    if (is_constrained(e) && !ends_at(e, v)) return false;
+    if (is_constrained(e) && (passages(e).size() != 1 || !ends_at(passages(e)[0].segment(), v)))
+      return false;
     const EdgeId opposite = next(e);
     const VertexId a = from(opposite);
     const VertexId b = to(opposite);

@@ -43,28 +43,46 @@ void Triangulation::remove(VertexId v) {
   end_edit();
 }
 
-/// Takes the passages of a segment off its edges, from vertex to vertex: rounding may have led it
-/// in loops.
+/// Takes the passages of a segment off its edges. Mostly that is one edge.
 void Triangulation::take_off(SegmentId s) {
+  const auto [from, to, constraint] = segment(s);
+  if (snaps_.empty() && from != to) {
+    if (const EdgeId e = edge_between(from, to); !e.is_none()) {
+      if (const auto passage = find_passage(e, s)) {
+        unmark(e, *passage);
+        loosen(from);
+        loosen(to);
+        return;
+      }
+    }
+  }
+  take_off_around(from, s);
+}
+
+/// From vertex to vertex, taking what is around each: rounding may have led the segment in loops.
+void Triangulation::take_off_around(VertexId start, SegmentId s) {
   const std::size_t first = goals_.size();
-  goals_.push_back(segment(s).from);
+  goals_.push_back(start);
   while (goals_.size() > first) {
     const VertexId v = goals_.back();
     goals_.pop_back();
-    if (loose_.empty() || loose_.back() != v) loose_.push_back(v);
-    const EdgeId start = edge(v);
-    if (start.is_none()) continue;
-    EdgeId e = start;
+    loosen(v);
+    const EdgeId start_edge = edge(v);
+    if (start_edge.is_none()) continue;
+    EdgeId e = start_edge;
     do {
-      if (is_constrained(e)) {
-        while (const auto passage = find_passage(e, s)) {
-          unmark(e, *passage);
-          goals_.push_back(to(e));
-        }
+      while (const auto passage = find_passage(e, s)) {
+        unmark(e, *passage);
+        goals_.push_back(to(e));
       }
       e = rotated(e);
-    } while (e != start);
+    } while (e != start_edge);
   }
+}
+
+/// A vertex that lost something is to be looked at.
+void Triangulation::loosen(VertexId v) {
+  if (loose_.empty() || loose_.back() != v) loose_.push_back(v);
 }
 
 std::optional<Passage> Triangulation::find_passage(EdgeId e, SegmentId s) const {
@@ -85,7 +103,7 @@ void Triangulation::unmark(EdgeId e, Passage passage) {
 void Triangulation::release_points(ConstraintId id) {
   for_each_point(id, [&](VertexId v) {
     --uses_[v.index()];
-    loose_.push_back(v);
+    loosen(v);
   });
   if (!is_without_length(id)) return;
   ConstraintId* link = &without_length_[first_vertex(id).index()];
@@ -96,11 +114,12 @@ void Triangulation::release_points(ConstraintId id) {
 /// Decides about each vertex that lost something, then lays again what that took off.
 void Triangulation::settle_loose() {
   restore_delaunay();
+  std::ranges::sort(loose_);
+  const auto repeated = std::ranges::unique(loose_);
+  loose_.erase(repeated.begin(), repeated.end());
   // Others may be added on the way.
-  for (std::size_t i = 0; i < loose_.size(); ++i) {
-    if (i + 1 < loose_.size() && loose_[i + 1] == loose_[i]) continue;
+  for (std::size_t i = 0; i < loose_.size(); ++i)
     if (is_vertex(loose_[i])) examine(loose_[i]);
-  }
   loose_.clear();
   lay_again();
 }
@@ -116,11 +135,16 @@ void Triangulation::examine(VertexId v) {
   }
   EdgeId constrained[2] = {EdgeId::none(), EdgeId::none()};
   std::size_t degree = 0;
+  bool has_passers = false;  // segments that do not end here
   EdgeId e = first;
   do {
-    if (is_constrained(e) && degree++ < 2) constrained[degree - 1] = e;
+    if (is_constrained(e)) {
+      if (degree++ < 2) constrained[degree - 1] = e;
+      for (const Passage passage : passages(e)) has_passers |= !ends_at(passage.segment(), v);
+    }
     e = rotated(e);
   } while (e != first);
+  if (is_used && !has_passers) return;
 
   if (degree == 0) {
     if (!is_used) delete_vertex(v);
@@ -131,12 +155,20 @@ void Triangulation::examine(VertexId v) {
     return;
   gather_segments(v);
   const std::size_t known = taken_off_.size();
-  for (const SegmentId s : around_) {
-    const bool ends_here = segment(s).from == v || segment(s).to == v;
-    if (!ends_here && !is_rightly_on(s, v)) taken_off_.push_back(s);
-  }
-  for (std::size_t i = known; i < taken_off_.size(); ++i) take_off(taken_off_[i]);
+  for (const SegmentId s : around_)
+    if (!ends_at(s, v) && !is_rightly_on(s, v)) taken_off_.push_back(s);
+  for (std::size_t i = known; i < taken_off_.size(); ++i) take_off_to_lay_again(taken_off_[i]);
   restore_delaunay();
+}
+
+/// What there was to doubt about it is forgotten: laying it finds out anew.
+void Triangulation::take_off_to_lay_again(SegmentId s) {
+  take_off_around(segment(s).from, s);
+  std::erase_if(snaps_, [&](const Snap& snap) { return snap.segment == s; });
+}
+
+bool Triangulation::ends_at(SegmentId s, VertexId v) const {
+  return segment(s).from == v || segment(s).to == v;
 }
 
 /// Whether the same segments, none crossing another, run along both edges, which meet in a vertex.
@@ -216,6 +248,14 @@ void Triangulation::forget_dead_snaps() {
   std::erase_if(snaps_, [&](const Snap& snap) { return !is_segment(snap.segment); });
 }
 
+/// Each once, in order.
+void Triangulation::tidy_snaps() {
+  const auto key = [](const Snap& snap) { return std::pair(snap.segment, snap.place); };
+  std::ranges::sort(snaps_, {}, key);
+  const auto repeated = std::ranges::unique(snaps_, {}, key);
+  snaps_.erase(repeated.begin(), repeated.end());
+}
+
 /// Lays the segments again that rounding led astray near the edited places: the reason may be gone.
 /// `known_snaps` were there before the edit.
 void Triangulation::straighten(std::size_t known_snaps) {
@@ -239,17 +279,14 @@ void Triangulation::straighten(std::size_t known_snaps) {
       return is_hardly_beside(a, b, place, nearly);
     });
   };
-  for (std::size_t i = 0; i < known_snaps; ++i) {
-    const Snap& snap = snaps_[i];
-    if (std::ranges::find(taken_off_, snap.segment) == taken_off_.end() && is_near(snap.place))
-      taken_off_.push_back(snap.segment);
-  }
+  for (std::size_t i = 0; i < known_snaps; ++i)
+    if (is_near(snaps_[i].place)) taken_off_.push_back(snaps_[i].segment);
   if (taken_off_.empty()) return;
   std::ranges::sort(taken_off_);
-  std::erase_if(snaps_, [&](const Snap& snap) {
-    return std::ranges::binary_search(taken_off_, snap.segment);
-  });
-  for (std::size_t i = 0, known = taken_off_.size(); i < known; ++i) take_off(taken_off_[i]);
+  const auto repeated = std::ranges::unique(taken_off_);
+  taken_off_.erase(repeated.begin(), repeated.end());
+  for (std::size_t i = 0, known = taken_off_.size(); i < known; ++i)
+    take_off_to_lay_again(taken_off_[i]);
   settle_loose();
 }
 

@@ -61,15 +61,12 @@ void Triangulation::reserve(std::size_t vertices) {
 
 // --- Edits ---
 
-bool Triangulation::is_usable(Point p) {
-  return std::abs(p.x) <= largest_coordinate && std::abs(p.y) <= largest_coordinate;
-}
-
 void Triangulation::check_usable(std::span<const Point> points) {
   if (points.empty()) throw std::invalid_argument("a constraint needs a point");
   for (const Point p : points)
     if (!is_usable(p))
-      throw std::invalid_argument("a constraint needs coordinates that are finite and below 1e75");
+      throw std::invalid_argument(
+          "coordinates must be 0 or between 1e-50 and 1e75 in magnitude, and finite");
 }
 
 void Triangulation::check_known(ConstraintId id) const {
@@ -84,6 +81,7 @@ void Triangulation::begin_edit() {
 }
 
 void Triangulation::end_edit() {
+  if (!snaps_.empty()) tidy_snaps();
   changes_.made.clear();
   changes_.unmade.clear();
   if (!is_recording_) return;
@@ -126,8 +124,11 @@ VertexId Triangulation::insert(Point point) {
 }
 
 std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
-  if (!is_usable(point) || !can_split(e, point)) return {};
+  if (!is_triangle(triangle(e))) throw std::invalid_argument("there is no such edge");
+  check_usable({&point, 1});
+  if (!can_split(e, point)) return {};
   begin_edit();
+  doubt_others_on(e, point);
   const VertexId v = split_at({Location::Kind::edge, e}, point);
   ++uses_[v.index()];
   end_edit();
@@ -135,7 +136,9 @@ std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
 }
 
 std::optional<VertexId> Triangulation::split(TriangleId t, Point point) {
-  if (!is_usable(point) || is_infinite(t)) return {};
+  if (!is_triangle(t)) throw std::invalid_argument("there is no such triangle");
+  check_usable({&point, 1});
+  if (is_infinite(t)) return {};
   for (unsigned corner = 0; corner < 3; ++corner) {
     const EdgeId e = edge(t, corner);
     if (orient(this->point(from(e)), this->point(to(e)), point) <= 0) return {};
@@ -221,18 +224,25 @@ void Triangulation::free_segments(ConstraintId id) {
 // --- Looking things up ---
 
 std::optional<EdgeId> Triangulation::find_edge(VertexId a, VertexId b) const {
+  const EdgeId e = edge_between(a, b);
+  if (e.is_none()) return {};
+  return e;
+}
+
+/// Around both vertices in step.
+EdgeId Triangulation::edge_between(VertexId a, VertexId b) const {
   const EdgeId first_at_a = edge(a);
   const EdgeId first_at_b = edge(b);
-  if (first_at_a.is_none()) return {};
+  if (first_at_a.is_none() || first_at_b.is_none()) return EdgeId::none();
   EdgeId e = first_at_a;
   EdgeId f = first_at_b;
-  do {  // around both in step
+  do {
     if (to(e) == b) return e;
     if (to(f) == a) return twin(f);
     e = rotated(e);
     f = rotated(f);
   } while (e != first_at_a && f != first_at_b);
-  return {};
+  return EdgeId::none();
 }
 
 std::span<const Segment> Triangulation::segments(ConstraintId c) const {
@@ -250,8 +260,31 @@ std::vector<Point> Triangulation::points(ConstraintId c) const {
   return points;
 }
 
-/// Hierholzer's way to find a trail: rounding may have led the segment in loops.
 std::vector<EdgeId> Triangulation::pieces(SegmentId s) const {
+  std::vector<EdgeId> found;
+  VertexId at = segment(s).from;
+  while (at != segment(s).to) {
+    const EdgeId first = edge(at);
+    EdgeId ahead = EdgeId::none();
+    std::size_t ways = 0;
+    EdgeId e = first;
+    do {
+      for (const Passage passage : passages(e))
+        if (passage.segment() == s && is_forward(e, passage)) {
+          ahead = e;
+          ++ways;
+        }
+      e = rotated(e);
+    } while (e != first);
+    if (ways != 1) return tangled_pieces(s);
+    found.push_back(ahead);
+    at = to(ahead);
+  }
+  return found;
+}
+
+/// Hierholzer's way to find a trail: rounding has led the segment in loops.
+std::vector<EdgeId> Triangulation::tangled_pieces(SegmentId s) const {
   std::vector<EdgeId> used;
   const auto is_open = [&](EdgeId e) {
     const auto available = std::ranges::count_if(passages(e), [&](Passage passage) {

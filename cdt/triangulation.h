@@ -73,9 +73,10 @@ struct Snap {
 /// nearby instead: then the result is as valid, but may depend on that order; snaps() lists these
 /// places. It never fails and never hangs.
 ///
-/// Epsilon. With an epsilon above zero, a point closer than that to a vertex is that vertex, one
-/// closer than that to a segment is on it, and a segment passing a vertex closer than that goes
-/// through it. What is merged depends on the order of insertion, as closeness is not transitive.
+/// Epsilon. With an epsilon above zero, a point no further than that from a vertex is that vertex,
+/// one no further than that from a segment is on it, and a segment passing a vertex no further than
+/// that goes through it. What is merged depends on the order of insertion, as closeness is not
+/// transitive.
 ///
 /// Structure. Triangles beyond the convex hull share one infinite vertex, so that every edge has a
 /// triangle on each side and no bounding box is needed. An oriented edge is 3 * triangle + corner;
@@ -83,7 +84,8 @@ struct Snap {
 /// valid until what they name is removed, those of edges and triangles until the next edit. Ids of
 /// removed things are used again: loops over ids go up to a bound and ask what is there.
 ///
-/// Not for several threads at once, except for reading. Copies are independent.
+/// Not for several threads at once, except for reading. Copies are independent; what has been moved
+/// from can be cleared, assigned to and destroyed.
 class Triangulation {
  public:
   /// The vertex at infinity.
@@ -91,6 +93,13 @@ class Triangulation {
 
   /// Beyond it products of four coordinates overflow.
   static constexpr double largest_coordinate = 1e75;
+  /// Below it, but for 0, what is left of products of four differences underflows.
+  static constexpr double smallest_coordinate = 1e-50;
+  /// Whether exact arithmetic is exact for a coordinate: 0, or between these two in magnitude.
+  [[nodiscard]] static constexpr bool is_usable(double coordinate) {
+    const double size = coordinate < 0 ? -coordinate : coordinate;
+    return size <= largest_coordinate && (size >= smallest_coordinate || size == 0);
+  }
 
   Triangulation() { clear(); }
   /// Precondition: epsilon is finite and not negative; std::invalid_argument otherwise.
@@ -104,7 +113,8 @@ class Triangulation {
   void reserve(std::size_t vertices);
 
   // Edits. Each throws std::invalid_argument, and then changes nothing, if there is no point, if a
-  // coordinate is not finite or beyond largest_coordinate, or if an id names nothing.
+  // coordinate is not usable, or if an id names nothing. (Beyond 2^31 edges, 2^30 segments or the
+  // memory there is, std::length_error or std::bad_alloc leave it fit for clear() only.)
 
   /// Inserts a polyline, or a single point. Cost: to locate the first point, O(1) expected where
   /// points are spread evenly; then in practice constant a point and a crossing.
@@ -123,20 +133,24 @@ class Triangulation {
   void translate(ConstraintId id, Point by);
   /// Inserts a vertex that belongs to no constraint, or finds the one that is there.
   VertexId insert(Point point);
-  /// Undoes one insert(Point) or split(): the vertex goes if nothing else needs it.
+  /// Undoes one insert(Point) or split(): the vertex goes if nothing else needs it. Also throws if
+  /// all that is there are points of constraints. Cost: the points of the constraints there.
   void remove(VertexId v);
   /// Splits an edge at a point on it or so close to it that the four new triangles are
-  /// counter-clockwise, whatever else is between; nothing happens if they are not.
-  /// The two halves keep the edge's passages; edges at the new vertex are not flipped away.
+  /// counter-clockwise, whatever else is between; nothing happens if they are not, or if the edge
+  /// has nothing but infinity on both sides and the point is not strictly between its ends.
+  /// The two halves keep the edge's passages; where that bends segments, snaps() has them.
   std::optional<VertexId> split(EdgeId edge, Point point);
   /// Splits a triangle at a point strictly inside; nothing happens if it is not.
   std::optional<VertexId> split(TriangleId triangle, Point point);
 
   /// From now on (or no longer) each edit notes the triangles that it makes and unmakes.
   void record_changes(bool is_on);
-  /// Those of the last edit; empty if they were not recorded.
+  /// Those of the last edit that changed something; empty if they were not recorded, and after
+  /// clear().
   [[nodiscard]] const Changes& changes() const { return changes_; }
 
+  /// Where a point is; nowhere if it is not finite.
   [[nodiscard]] Location locate(Point point) const { return locate(point, hint_for(point)); }
   /// Walks from the triangle of `hint`. Cost: in the number of triangles between.
   [[nodiscard]] Location locate(Point point, EdgeId hint) const;
@@ -185,10 +199,11 @@ class Triangulation {
   }
   [[nodiscard]] std::size_t edge_bound() const { return 3 * triangle_bound_; }
 
-  /// The edge between two vertices, if there is one. Cost: the smaller degree.
+  /// The edge between two vertices, if there is one. Precondition: they are vertices. Cost: the
+  /// smaller degree.
   [[nodiscard]] std::optional<EdgeId> find_edge(VertexId a, VertexId b) const;
 
-  // Constraints.
+  // Constraints. Precondition of all: the ids name something.
   [[nodiscard]] bool is_constrained(EdgeId e) const { return edges_[e.index()].is_constrained(); }
   /// The segments along an edge, with direction. Valid until the next edit.
   [[nodiscard]] std::span<const Passage> passages(EdgeId e) const {
@@ -221,7 +236,8 @@ class Triangulation {
   [[nodiscard]] std::vector<Point> points(ConstraintId c) const;
   /// The edges that make up a segment, in order and direction.
   [[nodiscard]] std::vector<EdgeId> pieces(SegmentId s) const;
-  /// The edges that make up a constraint, in order and direction.
+  /// The edges that make up a constraint, in order and direction. Cost: their number times the
+  /// degrees on the way.
   [[nodiscard]] std::vector<EdgeId> pieces(ConstraintId c) const;
   /// The constraints along an edge: sorted, each once.
   [[nodiscard]] std::vector<ConstraintId> constraints(EdgeId e) const;
@@ -347,7 +363,9 @@ class Triangulation {
   void join(EdgeId a, EdgeId b, PassageSet set);
 
   // triangulation.cpp: edits
-  [[nodiscard]] static bool is_usable(Point point);
+  [[nodiscard]] static bool is_usable(Point point) {
+    return is_usable(point.x) && is_usable(point.y);
+  }
   static void check_usable(std::span<const Point> points);
   void check_known(ConstraintId id) const;
   void begin_edit();
@@ -358,6 +376,7 @@ class Triangulation {
   [[nodiscard]] std::uint32_t take_segments(std::uint32_t count);
   void give_segments(std::uint32_t first, std::uint32_t count);
   void free_segments(ConstraintId id);
+  [[nodiscard]] std::vector<EdgeId> tangled_pieces(SegmentId s) const;
   [[nodiscard]] bool is_without_length(ConstraintId id) const;
   /// Calls visit(vertex) for each point, in order.
   template <class Visit>
@@ -418,7 +437,9 @@ class Triangulation {
   void reroute(EdgeId e, VertexId through);
   void mark(EdgeId e, SegmentId s);
   void follow_corridor(VertexId from, VertexId to, SegmentId s);
-  [[nodiscard]] bool goes_by(VertexId at, VertexId goal, const Obstacle& obstacle);
+  [[nodiscard]] double along(SegmentId s, VertexId v) const;
+  [[nodiscard]] VertexId nearby_before(VertexId goal, VertexId at, SegmentId s,
+                                       const Obstacle& obstacle) const;
   void doubt(SegmentId s, Point place) { snaps_.push_back({s, place}); }
   [[nodiscard]] std::pair<Point, Point> ends_of(SegmentId s) const;
 
@@ -436,10 +457,14 @@ class Triangulation {
   [[nodiscard]] bool opens_towards(const Cavity& cavity, std::uint32_t tip, VertexId low,
                                    VertexId high) const;
   void close(Cavity& cavity, std::uint32_t gap, EdgeId inside);
-  [[nodiscard]] TriangleId spare_triangle();
+  [[nodiscard]] TriangleId spare_triangle(VertexId a, VertexId b, VertexId c);
 
   // remove.cpp
   void take_off(SegmentId s);
+  void take_off_around(VertexId start, SegmentId s);
+  void take_off_to_lay_again(SegmentId s);
+  void loosen(VertexId v);
+  [[nodiscard]] bool ends_at(SegmentId s, VertexId v) const;
   [[nodiscard]] std::optional<Passage> find_passage(EdgeId e, SegmentId s) const;
   void unmark(EdgeId e, Passage passage);
   void settle_loose();
@@ -452,6 +477,7 @@ class Triangulation {
   [[nodiscard]] std::size_t count_points_at(VertexId v) const;
   void note_edited(ConstraintId id);
   void forget_dead_snaps();
+  void tidy_snaps();
   void straighten(std::size_t known_snaps);
 
   // holes.cpp: vertices taken out
@@ -473,12 +499,13 @@ class Triangulation {
   // move.cpp
   void move_to(ConstraintId id, std::span<const Point> points);
   void replace(ConstraintId id, std::span<const Point> points);
-  [[nodiscard]] bool ends_at(EdgeId e, VertexId v) const;
   void move_in_place(ConstraintId id, std::span<const Point> points);
   [[nodiscard]] bool is_plain(SegmentId s) const;
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
   void push_around(VertexId v);
-  [[nodiscard]] bool has_moved(VertexId v) const { return (uses_[v.index()] & moved) != 0; }
+  [[nodiscard]] bool has_moved(VertexId v) const {
+    return v != infinite && (uses_[v.index()] & moved) != 0;
+  }
 
   double epsilon_ = 0;
   std::vector<OrientedEdge> edges_;  // some more than triangle_bound_ asks for

@@ -120,10 +120,9 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   if (epsilon_ > 0) {
     if (const VertexId v = merge(place, point); !v.is_none()) return v;
   } else if (place.kind == Location::Kind::triangle) {
-    if (!has_constrained_edge(triangle(place.edge))) {
-      // the commonest case: nothing is bent here
-    } else if (const auto bent = bent_edge_at(triangle(place.edge), point))
-      place = {Location::Kind::edge, *bent};
+    const TriangleId t = triangle(place.edge);
+    const auto bent = has_constrained_edge(t) ? bent_edge_at(t, point) : std::nullopt;
+    if (bent) place = {Location::Kind::edge, *bent};
   } else if (place.kind == Location::Kind::edge && is_constrained(place.edge)) {
     doubt_others_on(place.edge, point);
   }
@@ -377,12 +376,22 @@ VertexId Triangulation::split_edge_at(EdgeId e, Point place) {
 }
 
 bool Triangulation::can_split(EdgeId e, Point p) const {
+  if (from(e) == infinite || to(e) == infinite) return false;
+  const Point a = point(from(e));
+  const Point b = point(to(e));
   const EdgeId around[4] = {next(e), prev(e), next(twin(e)), prev(twin(e))};
   for (const EdgeId side : around) {
-    if (from(side) == infinite || to(side) == infinite) continue;
-    if (orient(point(from(side)), point(to(side)), p) <= 0) return false;
+    if (from(side) == infinite || to(side) == infinite) {
+      // Nothing stands in the way beyond the hull, but the point is to be beside the edge.
+      const bool is_beside = (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y) > 0 &&
+                             (p.x - b.x) * (b.x - a.x) + (p.y - b.y) * (b.y - a.y) < 0;
+      if (!is_beside || p == a || p == b) return false;
+      if (orient(a, b, p) == 0 && !is_between(a, b, p)) return false;
+    } else if (orient(point(from(side)), point(to(side)), p) <= 0) {
+      return false;
+    }
   }
-  return from(e) != infinite && to(e) != infinite;
+  return true;
 }
 
 /// Turns the diagonal of the two triangles beside e, which must make a convex quadrilateral.

@@ -122,7 +122,7 @@ void Lift::set_heights(const Wedge& wedge, Level level) {
 }
 
 void Lift::decide_columns() {
-  for (std::uint32_t i = 1; i <= mesh_.vertex_count(); ++i)
+  for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i)
     if (slab_.is_column(VertexId(i))) columns_.push_back(VertexId(i));
   std::ranges::sort(columns_, {}, [&](VertexId v) { return mesh_.point(v); });
   if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::undecided);
@@ -144,11 +144,12 @@ void Lift::restore_columns() {
 }
 
 void Lift::lift_crossings() {
-  inner_index_.assign(mesh_.vertex_count() + 1, Origin::none);
+  inner_index_.assign(mesh_.vertex_bound(), Origin::none);
   const double half_way = slab_.lower().z + slab_.height() / 2;
-  for (std::uint32_t i = 1; i <= mesh_.vertex_count(); ++i) {
+  for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i) {
     const VertexId v(i);
-    if (!slab_.is_vertex(v, Level::lower) && !slab_.is_vertex(v, Level::upper))
+    if (mesh_.is_vertex(v) && !slab_.is_vertex(v, Level::lower) &&
+        !slab_.is_vertex(v, Level::upper))
       add_inner(v, half_way, VertexKind::crossing);
   }
 }

@@ -23,13 +23,13 @@ struct Layer {
   std::vector<ContourSource> contours;
 };
 
-bool is_usable(double x) { return std::abs(x) <= cdt::Triangulation::largest_coordinate; }
+using cdt::Triangulation;
 
 std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
   std::vector<Defect> found;
   for (std::uint32_t s = 0; s < slices.size(); ++s) {
     const Slice& slice = slices[s];
-    if (!is_usable(slice.z))
+    if (!(std::abs(slice.z) <= Triangulation::largest_coordinate))
       found.push_back(
           {DefectKind::not_finite,
            slice.z,
@@ -42,7 +42,7 @@ std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
     for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
       const auto& points = slice.contours[c].points;
       for (std::uint32_t p = 0; p < points.size(); ++p)
-        if (!is_usable(points[p].x) || !is_usable(points[p].y))
+        if (!Triangulation::is_usable(points[p].x) || !Triangulation::is_usable(points[p].y))
           found.push_back(
               {DefectKind::not_finite,
                slice.z,
@@ -51,8 +51,8 @@ std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
                p,
                {},
                0,
-               "a coordinate is not a finite number below 1e75; correct the point or leave it "
-               "out"});
+               "a coordinate is not finite, beyond 1e75, or below 1e-50 without being 0; "
+               "correct the point or leave it out"});
     }
   }
   return found;

@@ -34,9 +34,9 @@ class Cancelled : public Error {
 ///
 /// Slices may come in any order of height; those of equal height are merged. Leading and trailing
 /// empty slices are left out.
-/// Throws InputError with all fatal defects: a coordinate that is not finite or beyond 1e75, slices
-/// so near to one another that rounding leaves nothing between them, fewer than two slices with an
-/// area.
+/// Throws InputError with all fatal defects: a coordinate that is not finite or of no usable size
+/// (cdt::Triangulation::is_usable), slices so near to one another that rounding leaves nothing
+/// between them, fewer than two slices with an area.
 /// Cost: O(n log n) for n contour points, in practice; memory in proportion to the result.
 [[nodiscard]] Reconstruction reconstruct(std::span<const Slice> slices, const Options& options = {},
                                          const Progress& progress = {});

@@ -112,7 +112,7 @@ class Cleaning {
 
   /// Which input point each vertex is; the first one where there are several.
   void note_sources() {
-    origins_.assign(mesh_.vertex_count() + 1,
+    origins_.assign(mesh_.vertex_bound(),
                     Origin{VertexKind::cleaning, Origin::none, Origin::none, Origin::none});
     for (std::uint32_t c = 0; c < chosen_.size(); ++c) {
       const ContourSource& source = contours_[chosen_[c]];
@@ -156,8 +156,8 @@ class Cleaning {
   /// One report for each contour, or pair of contours, that cross: the first place and how many.
   void report_crossings() {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<VertexId, std::size_t>> found;
-    for (std::uint32_t i = 1; i <= mesh_.vertex_count(); ++i) {
-      if (origins_[i].kind == VertexKind::contour) continue;
+    for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i) {
+      if (!mesh_.is_vertex(VertexId(i)) || origins_[i].kind == VertexKind::contour) continue;
       std::set<std::uint32_t> around;
       const EdgeId first = mesh_.edge(VertexId(i));
       EdgeId e = first;
@@ -266,8 +266,8 @@ class Cleaning {
     region.slice = contours_.empty() ? 0 : contours_.front().slice;
     region.loop_starts.push_back(0);
     std::vector<bool> is_done(mesh_.edge_bound());
-    index_.assign(mesh_.vertex_count() + 1, Origin::none);
-    for (std::uint32_t v = 1; v <= mesh_.vertex_count(); ++v) {
+    index_.assign(mesh_.vertex_bound(), Origin::none);
+    for (std::uint32_t v = 1; v < mesh_.vertex_bound(); ++v) {
       const EdgeId first = mesh_.edge(VertexId(v));
       if (first.is_none()) continue;
       EdgeId e = first;

@@ -27,7 +27,7 @@ Vec3 Slab::place(cdt::VertexId v, double z) const {
 
 bool Slab::is_exact() const {
   if (!overlay_.snaps().empty()) return false;
-  std::vector<std::uint8_t> passing(overlay_.vertex_count() + 1);  // segments through each vertex
+  std::vector<std::uint8_t> passing(overlay_.vertex_bound());  // segments through each vertex
   for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
     const cdt::EdgeId e(i);
     for (const cdt::Passage passage : overlay_.passages(e)) {
@@ -52,6 +52,7 @@ bool Slab::is_tight(double height) const {
   };
   for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
     const cdt::EdgeId e(i);
+    if (!overlay_.is_triangle(cdt::Triangulation::triangle(e))) continue;
     if (!is_crossing(overlay_.from(e)) || overlay_.is_infinite(cdt::Triangulation::triangle(e)))
       continue;
     const cdt::Point a = overlay_.point(overlay_.from(e));
@@ -69,7 +70,7 @@ bool Slab::is_tight(double height) const {
 void Slab::note_vertices(Level level) {
   const auto& loop_vertices = region(level).loop_vertices;
   auto& indices = level == Level::lower ? lower_index_ : upper_index_;
-  indices.assign(overlay_.vertex_count() + 1, Origin::none);
+  indices.assign(overlay_.vertex_bound(), Origin::none);
   const std::size_t first = level == Level::lower ? 0 : lower_.loop_vertices.size();
   for (std::size_t i = 0; i < loop_vertices.size(); ++i) {
     const auto& segment = overlay_.segment(cdt::SegmentId(static_cast<std::uint32_t>(first + i)));

@@ -143,7 +143,7 @@ class Tiling {
     wall_.clear();
     const auto ring = wall_.insert(flat_, cdt::closed);
     if (wall_.vertex_count() != polygon_.size()) return;
-    corner_.assign(wall_.vertex_count() + 1, Origin::none);
+    corner_.assign(wall_.vertex_bound(), Origin::none);
     const auto segments = wall_.segments(ring);
     for (std::size_t i = 0; i < segments.size(); ++i)
       corner_[segments[i].from.index()] = polygon_[i];

@@ -9,51 +9,11 @@
 
 #include "cdt/check.h"
 #include "tests/cdt/picture.h"
+#include "tests/cdt/player.h"
 
 namespace loft::cdt {
 
 namespace {
-
-/// A triangulation that follows a script, and the ids of its constraints by name.
-class Player {
- public:
-  void play(const Edit& edit) {
-    if (!applies(edit, constraints_)) return;
-    switch (edit.kind) {
-      case Edit::Kind::insert:
-        ids_[edit.name] = mesh_.insert(edit.outline.points, edit.outline.ends);
-        break;
-      case Edit::Kind::remove:
-        mesh_.remove(ids_.at(edit.name));
-        ids_.erase(edit.name);
-        break;
-      case Edit::Kind::move:
-        mesh_.move(ids_.at(edit.name), edit.outline.points);
-        break;
-      case Edit::Kind::translate:
-        mesh_.translate(ids_.at(edit.name), edit.by);
-        break;
-    }
-    carry_out(edit, constraints_);
-  }
-
-  [[nodiscard]] const Triangulation& mesh() const { return mesh_; }
-  [[nodiscard]] std::vector<ConstraintId> ids() const {
-    std::vector<ConstraintId> ids;
-    for (const auto& [name, id] : ids_) ids.push_back(id);
-    return ids;
-  }
-  [[nodiscard]] std::vector<Outline> outlines() const {
-    std::vector<Outline> outlines;
-    for (const auto& [name, outline] : constraints_) outlines.push_back(outline);
-    return outlines;
-  }
-
- private:
-  Triangulation mesh_;
-  Constraints constraints_;
-  std::map<std::size_t, ConstraintId> ids_;
-};
 
 std::size_t segment_count(const std::vector<Outline>& outlines) {
   std::size_t count = 0;

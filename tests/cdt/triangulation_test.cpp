@@ -193,16 +193,51 @@ TEST(Triangulation, SplitsEdgesAndTrianglesOnlyWhereTheyStayProper) {
   const TriangleId inside = Triangulation::triangle(mesh.locate({1, 1}).edge);
   EXPECT_FALSE(mesh.split(inside, {5, 5}));
   EXPECT_FALSE(mesh.split(inside, {2, 2}));
-  EXPECT_FALSE(mesh.split(inside, {std::numeric_limits<double>::quiet_NaN(), 1}));
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)mesh.split(inside, {nan, 1}), std::invalid_argument);
+  EXPECT_THROW((void)mesh.split(TriangleId(777), {1, 1}), std::invalid_argument);
+  EXPECT_THROW((void)mesh.split(EdgeId::none(), {1, 1}), std::invalid_argument);
   ASSERT_TRUE(mesh.split(inside, {1, 1}));
   const auto edge =
       mesh.find_edge(mesh.from(mesh.locate({0, 0}).edge), mesh.from(mesh.locate({4, 0}).edge));
   ASSERT_TRUE(edge);
   EXPECT_FALSE(mesh.split(*edge, {2, 3}));
-  EXPECT_FALSE(mesh.split(*edge, {2, -std::numeric_limits<double>::infinity()}));
+  EXPECT_THROW((void)mesh.split(*edge, {2, -1 / 0.0}), std::invalid_argument);
   ASSERT_TRUE(mesh.split(*edge, {2, 0}));
   EXPECT_EQ(mesh.pieces(SegmentId(0)).size(), 2U);
   EXPECT_EQ(first_fault(mesh), "");
+}
+
+TEST(Triangulation, SplitsALineOnlyBetweenItsEnds) {
+  for (const Point place : {Point{5, 0}, Point{0, 0}, Point{-1, 0}, Point{1, 0}, Point{3, 1}}) {
+    Triangulation mesh;
+    const VertexId a = mesh.insert({0, 0});
+    const VertexId b = mesh.insert({1, 0});
+    EXPECT_FALSE(mesh.split(*mesh.find_edge(a, b), place)) << place;
+    EXPECT_EQ(mesh.vertex_count(), 2U);
+  }
+  for (const Point place : {Point{0.5, 0}, Point{0.5, 0.1}, Point{0.2, -3}}) {
+    Triangulation mesh;
+    mesh.insert(std::vector<Point>{{-1, 0}, {0, 0}, {1, 0}, {2, 0}}, open);
+    const auto found = mesh.locate({0.25, 0});
+    ASSERT_TRUE(mesh.split(found.edge, place)) << place;
+    EXPECT_EQ(first_fault(mesh), "");
+    EXPECT_EQ(mesh.pieces(ConstraintId(0)).size(), 4U);
+    EXPECT_EQ(mesh.snaps().empty(), place.y == 0);
+  }
+}
+
+TEST(Triangulation, FindsNoEdgeOfAVertexThatIsGone) {
+  Triangulation mesh;
+  mesh.insert({0, 0});
+  const VertexId a = mesh.insert({1, 0});
+  mesh.insert({0, 1});
+  const VertexId gone = mesh.insert({3, 3});
+  mesh.remove(gone);
+  EXPECT_FALSE(mesh.find_edge(a, gone));
+  EXPECT_FALSE(mesh.find_edge(gone, a));
+  EXPECT_EQ(mesh.locate({std::numeric_limits<double>::quiet_NaN(), 0}).kind,
+            Location::Kind::nowhere);
 }
 
 TEST(Triangulation, RefusesWhatIsNoPolylineAndStaysAsItWas) {
@@ -214,6 +249,8 @@ TEST(Triangulation, RefusesWhatIsNoPolylineAndStaysAsItWas) {
   EXPECT_THROW(mesh.insert(std::vector<Point>{}, open), std::invalid_argument);
   EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {nan, 0}}, open), std::invalid_argument);
   EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {0, infinity}}, open), std::invalid_argument);
+  EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {0, 2e75}}, open), std::invalid_argument);
+  EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {0, 1e-66}}, open), std::invalid_argument);
   EXPECT_EQ(triangles_of(mesh), before);
   EXPECT_EQ(mesh.constraint_count(), 1U);
 }

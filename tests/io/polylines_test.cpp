@@ -166,7 +166,7 @@ std::vector<Polyline> random_polylines(unsigned seed) {
   for (Polyline& polyline : polylines) {
     polyline.ends = random() % 2 == 0 ? open : closed;
     for (auto points = 1 + random() % 6; points > 0; --points) {
-      polyline.points.push_back({coordinate(random), coordinate(random) * 1e-300});
+      polyline.points.push_back({coordinate(random), coordinate(random) * 1e-50});
     }
   }
   return polylines;
@@ -209,6 +209,7 @@ TEST(PolylineText, NamesTheLine) {
        "a.txt:4: y: NaN is not a number\n"
        "a.txt:5: expected a line `x y`, found a third word '3'\n"
        "a.txt:7: x: -inf is larger than 1e+75"},
+      {"1 0\n0 -1e-99\n", "a.txt:2: y: -1e-99 is below 1e-50, but not 0"},
   };
   for (const auto& [content, message] : cases) EXPECT_EQ(text_problem(content), message) << content;
 }

@@ -324,7 +324,7 @@ TEST(Svg, DrawsWhatHasNoArea) {
       {{{{0, 0}, {1, 0}, {2, 0}}, open}},
       {{{{0, 0}, {0, 7}}, closed}},
       {{{{-1e75, -1e75}, {1e75, 1e75}}, open}},
-      {{{{0, 0}, {5e-324, 0}, {0, 5e-324}}, closed}},
+      {{{{0, 0}, {1e-50, 0}, {0, 1e-50}}, closed}},
       {{{{1e9, 0}, {1e9, 1e-9}, {1e9 + 1, 1}}, closed}},
   };
   for (const std::vector<Polyline>& polylines : inputs) {
