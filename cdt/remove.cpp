@@ -46,7 +46,7 @@ void Triangulation::remove(VertexId v) {
 /// Takes the passages of a segment off its edges. Mostly that is one edge.
 void Triangulation::take_off(SegmentId s) {
   const auto [from, to, constraint] = segment(s);
-  if (snaps_.empty() && from != to) {
+  if (from != to && !may_be_tangled(s)) {
     if (const EdgeId e = edge_between(from, to); !e.is_none()) {
       if (const auto passage = find_passage(e, s)) {
         unmark(e, *passage);
@@ -57,6 +57,13 @@ void Triangulation::take_off(SegmentId s) {
     }
   }
   take_off_around(from, s);
+}
+
+/// Whether rounding may have led a segment in loops, so that it has more edges than it needs.
+bool Triangulation::may_be_tangled(SegmentId s) const {
+  constexpr std::size_t few = 64;
+  return snaps_.size() > few ||
+         std::ranges::any_of(snaps_, [&](const Snap& snap) { return snap.segment == s; });
 }
 
 /// From vertex to vertex, taking what is around each: rounding may have led the segment in loops.

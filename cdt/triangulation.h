@@ -461,6 +461,7 @@ class Triangulation {
 
   // remove.cpp
   void take_off(SegmentId s);
+  [[nodiscard]] bool may_be_tangled(SegmentId s) const;
   void take_off_around(VertexId start, SegmentId s);
   void take_off_to_lay_again(SegmentId s);
   void loosen(VertexId v);
