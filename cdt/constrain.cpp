@@ -35,6 +35,7 @@ void Triangulation::lay(SegmentId s) {
   while (at != segment.to) {
     const Obstacle obstacle = walk(at, segment.to, a, b);
     VertexId ahead = obstacle.vertex;
+    const std::size_t vertices = vertex_count_;
     switch (obstacle.kind) {
       case Obstacle::Kind::edge_along:
         ahead = to(obstacle.edge);
@@ -65,11 +66,8 @@ void Triangulation::lay(SegmentId s) {
     }
     const bool is_crossing = uses_[at.index()] == 0 || uses_[ahead.index()] == 0;
     if (is_crossing) doubt_beside(at, ahead, s);
-    if (ahead != segment.to && uses_[ahead.index()] == 0 &&
-        obstacle.kind != Obstacle::Kind::constrained_edge) {
-      gather_segments(ahead);
-      if (!is_rightly_on(s, ahead)) doubt(s, point(ahead));  // put here by rounding alone
-    }
+    const bool is_new = vertex_count_ > vertices;
+    if (ahead != segment.to && !is_new) doubt_crossings_at(ahead, s);
     at = ahead;
   }
 }
@@ -107,6 +105,32 @@ VertexId Triangulation::meet(EdgeId e, SegmentId s) {
     doubt(s, *place);
   }
   return split_edge_at(e, *place);
+}
+
+/// Notes if s goes through a crossing of others without crossing all of them at that very place.
+void Triangulation::doubt_crossings_at(VertexId v, SegmentId s) {
+  if (uses_[v.index()] > 0) return;
+  gather_segments(v);
+  const bool agrees = std::ranges::all_of(around_, [&](SegmentId other) {
+    return other == s || runs_along(other, s) || crosses_at(other, s, point(v));
+  });
+  if (!agrees) doubt(s, point(v));
+}
+
+/// Whether two segments are on one line.
+bool Triangulation::runs_along(SegmentId one, SegmentId other) const {
+  const auto [a, b] = ends_of(one);
+  const auto [c, d] = ends_of(other);
+  return orient(a, b, c) == 0 && orient(a, b, d) == 0;
+}
+
+/// Whether two segments cross at a place, rounded.
+bool Triangulation::crosses_at(SegmentId one, SegmentId other, Point place) const {
+  const auto [a, b] = ends_of(one);
+  const auto [c, d] = ends_of(other);
+  if (!crosses(a, b, c, d)) return false;
+  const Point crossing = intersection(a, b, c, d);
+  return crossing == place || (epsilon_ > 0 && distance(crossing, place) <= epsilon_);
 }
 
 /// Notes that a segment goes through a point which rounding alone puts on it: what else ends there

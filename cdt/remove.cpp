@@ -224,13 +224,8 @@ bool Triangulation::is_rightly_on(SegmentId s, VertexId v) const {
     if (orient(a, b, place) == 0) return true;
     if (epsilon_ > 0 && distance_to_line(a, b, place) <= epsilon_) return true;
   }
-  return std::ranges::any_of(around_, [&](SegmentId other) {
-    const auto [c, d] = ends_of(other);
-    if (other == s || !crosses(a, b, c, d)) return false;
-    const Point crossing =
-        ends_of(other) < ends_of(s) ? intersection(c, d, a, b) : intersection(a, b, c, d);
-    return crossing == place || (epsilon_ > 0 && distance(crossing, place) <= epsilon_);
-  });
+  return std::ranges::any_of(
+      around_, [&](SegmentId other) { return other != s && crosses_at(s, other, place); });
 }
 
 /// Lays the segments that were taken off because they passed through vertices without reason.

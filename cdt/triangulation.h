@@ -427,6 +427,9 @@ class Triangulation {
   [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
   [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
                                      Obstacle& obstacle) const;
+  void doubt_crossings_at(VertexId v, SegmentId s);
+  [[nodiscard]] bool runs_along(SegmentId one, SegmentId other) const;
+  [[nodiscard]] bool crosses_at(SegmentId one, SegmentId other, Point place) const;
   void doubt_point_beside(VertexId v, SegmentId s);
   void doubt_beside(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
