@@ -44,7 +44,7 @@ void Triangulation::lay(SegmentId s) {
       case Obstacle::Kind::constrained_edge:
         ahead = meet(obstacle.edge, s);
         if (ahead.is_none() || ahead == at || !connect(at, ahead, s)) {
-          lay_crooked(s, at);
+          lay_crooked(s, at, ahead);
           return;
         }
         break;
@@ -52,7 +52,7 @@ void Triangulation::lay(SegmentId s) {
         if (at == segment.from) {
           mark(force_edge(at, ahead), s);
         } else if (!connect(at, ahead, s)) {
-          lay_crooked(s, at);
+          lay_crooked(s, at, ahead);
           return;
         }
         break;
@@ -223,10 +223,11 @@ EdgeId Triangulation::first_crossed(VertexId from, VertexId to, Point a, Point b
 /// is. A split point is off the straight line by its rounding, so each becomes a goal of its own
 /// that is walked to anew. With an epsilon this is the only way, as vertices nearby are goals, too;
 /// then each step must lead on along the segment, but for a few.
-void Triangulation::lay_crooked(SegmentId s, VertexId at) {
+void Triangulation::lay_crooked(SegmentId s, VertexId at, VertexId via) {
   const Segment segment = this->segment(s);
   if (epsilon_ == 0) doubt(s, point(at));
   goals_.assign(1, segment.to);
+  if (!via.is_none()) goals_.push_back(via);
   int detours = 0;
   while (!goals_.empty()) {
     const VertexId goal = goals_.back();
@@ -237,6 +238,7 @@ void Triangulation::lay_crooked(SegmentId s, VertexId at) {
     if (detours > most_detours) {
       doubt(s, point(at));
       follow_corridor(at, segment.to, s);
+      for (const VertexId v : goals_) loosen(v);  // made for this segment, perhaps in vain
       return;
     }
     const Obstacle obstacle = walk(at, goal, point(at), point(goal));
@@ -285,15 +287,22 @@ double Triangulation::along(SegmentId s, VertexId v) const {
 /// through instead.
 VertexId Triangulation::cross(EdgeId e, SegmentId s) {
   const std::optional<Point> place = crossing_point(e, s);
-  if (!place) {
-    const Point a = point(from(e));
-    const Point b = point(to(e));
-    return snap(e, {(a.x + b.x) / 2, (a.y + b.y) / 2}, s);
-  }
+  if (!place) return snap(e, nearest_on(e, s), s);
   for (const VertexId end : {from(e), to(e)})
     if (distance(point(end), *place) <= epsilon_) return end;
   if (!can_split(e, *place)) return snap(e, *place, s);
   return split_edge_at(e, *place);
+}
+
+/// About where a segment comes nearest to an edge that rounding alone made it cross.
+Point Triangulation::nearest_on(EdgeId e, SegmentId s) const {
+  const auto [a, b] = ends_of(s);
+  const Point p = point(from(e));
+  const Point q = point(to(e));
+  const double at_p = distance_to_line(a, b, p);
+  const double at_q = distance_to_line(a, b, q);
+  const double share = at_p + at_q > 0 ? at_p / (at_p + at_q) : 0.5;
+  return {p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
 }
 
 /// Where s crosses the segment that e is a piece of. Of several such segments that the

@@ -113,6 +113,7 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
   }
   for (std::uint32_t i = 0; i < count; ++i)
     if (!stays_[i]) lay(SegmentId(first + i));
+  if (!loose_.empty()) settle_loose();
 }
 
 /// The edges at a moved vertex and those around it become suspects, each once for all that moved.

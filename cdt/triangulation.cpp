@@ -182,6 +182,7 @@ void Triangulation::lay_all(ConstraintId id) {
   const Constraint constraint = constraints_[id.index()];
   for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
     lay(SegmentId(constraint.first_segment + i));
+  if (!loose_.empty()) settle_loose();
 }
 
 bool Triangulation::is_without_length(ConstraintId id) const {

@@ -433,7 +433,8 @@ class Triangulation {
   void doubt_point_beside(VertexId v, SegmentId s);
   void doubt_beside(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
-  void lay_crooked(SegmentId s, VertexId at);
+  void lay_crooked(SegmentId s, VertexId at, VertexId via = VertexId::none());
+  [[nodiscard]] Point nearest_on(EdgeId e, SegmentId s) const;
   [[nodiscard]] VertexId cross(EdgeId e, SegmentId s);
   [[nodiscard]] std::optional<Point> crossing_point(EdgeId e, SegmentId s) const;
   [[nodiscard]] VertexId snap(EdgeId e, Point place, SegmentId s);
