@@ -134,12 +134,12 @@ EdgeId Triangulation::fill_large(Cavity& cavity) {
 
 /// The triangle left of an edge of the part, made here.
 void Triangulation::copy_triangle(EdgeId e) {
-  auto& [part, places, vertex_of, made, front] = workshop_.get();
-  const auto corner = [&](EdgeId at) { return vertex_of[part.from(at).index()]; };
+  Workshop& work = workshop_.get();
+  const auto corner = [&](EdgeId at) { return work.vertex_of[work.part.from(at).index()]; };
   const TriangleId t = spare_triangle(corner(e), corner(next(e)), corner(prev(e)));
   for (unsigned i = 0; i < 3; ++i, e = next(e)) {
-    made[e.index()] = edge(t, i);
-    front.push_back(e);
+    work.made[e.index()] = edge(t, i);
+    work.front.push_back(e);
   }
 }
 

@@ -44,12 +44,7 @@ void Triangulation::move_to(ConstraintId id, std::span<const Point> points) {
 /// Remove and insert, but for the id.
 void Triangulation::replace(ConstraintId id, std::span<const Point> points) {
   const Ends ends = this->ends(id);
-  const Constraint old = constraints_[id.index()];
-  for (std::uint32_t i = 0; i < old.segment_count; ++i) take_off(SegmentId(old.first_segment + i));
-  release_points(id);
-  settle_loose();
-  free_segments(id);
-  forget_dead_snaps();
+  take_out(id);
   insert_points(points);
   describe(id, inserted_, ends);
   lay_all(id);

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "cdt/each_once.h"
 #include "cdt/predicates.h"
 #include "cdt/rounding.h"
 #include "cdt/triangulation.h"
@@ -16,17 +17,22 @@ void Triangulation::remove(ConstraintId id) {
   check_known(id);
   begin_edit();
   note_edited(id);
-  const Constraint removed = constraints_[id.index()];
-  for (std::uint32_t i = 0; i < removed.segment_count; ++i)
-    take_off(SegmentId(removed.first_segment + i));
+  take_out(id);
+  constraints_[id.index()].first_vertex = VertexId::none();
+  free_constraints_.push_back(id);
+  straighten(snaps_.size());
+  end_edit();
+}
+
+/// All but the id.
+void Triangulation::take_out(ConstraintId id) {
+  const Constraint constraint = constraints_[id.index()];
+  for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
+    take_off(SegmentId(constraint.first_segment + i));
   release_points(id);
   settle_loose();
   free_segments(id);
-  constraints_[id.index()].first_vertex = VertexId::none();
-  free_constraints_.push_back(id);
   forget_dead_snaps();
-  straighten(snaps_.size());
-  end_edit();
 }
 
 void Triangulation::remove(VertexId v) {
@@ -121,9 +127,7 @@ void Triangulation::release_points(ConstraintId id) {
 /// Decides about each vertex that lost something, then lays again what that took off.
 void Triangulation::settle_loose() {
   restore_delaunay();
-  std::ranges::sort(loose_);
-  const auto repeated = std::ranges::unique(loose_);
-  loose_.erase(repeated.begin(), repeated.end());
+  keep_each_once(loose_);
   // Others may be added on the way.
   for (std::size_t i = 0; i < loose_.size(); ++i)
     if (is_vertex(loose_[i])) examine(loose_[i]);
@@ -154,7 +158,7 @@ void Triangulation::examine(VertexId v) {
   if (is_used && !has_passers) return;
 
   if (degree == 0) {
-    if (!is_used) delete_vertex(v);
+    delete_vertex(v);
     return;
   }
   if (!is_used && degree == 2 && passes_straight(twin(constrained[0]), constrained[1]) &&
@@ -210,9 +214,7 @@ void Triangulation::gather_segments(VertexId v) {
     for (const Passage passage : passages(e)) around_.push_back(passage.segment());
     e = rotated(e);
   } while (e != first);
-  std::ranges::sort(around_);
-  const auto repeated = std::ranges::unique(around_);
-  around_.erase(repeated.begin(), repeated.end());
+  keep_each_once(around_);
 }
 
 /// Whether a segment through v has to go there: because of a point on it, or because it crosses
@@ -252,10 +254,7 @@ void Triangulation::forget_dead_snaps() {
 
 /// Each once, in order.
 void Triangulation::tidy_snaps() {
-  const auto key = [](const Snap& snap) { return std::pair(snap.segment, snap.place); };
-  std::ranges::sort(snaps_, {}, key);
-  const auto repeated = std::ranges::unique(snaps_, {}, key);
-  snaps_.erase(repeated.begin(), repeated.end());
+  keep_each_once(snaps_, [](const Snap& snap) { return std::pair(snap.segment, snap.place); });
 }
 
 /// Lays the segments again that rounding led astray near the edited places: the reason may be gone.
@@ -284,9 +283,7 @@ void Triangulation::straighten(std::size_t known_snaps) {
   for (std::size_t i = 0; i < known_snaps; ++i)
     if (is_near(snaps_[i].place)) taken_off_.push_back(snaps_[i].segment);
   if (taken_off_.empty()) return;
-  std::ranges::sort(taken_off_);
-  const auto repeated = std::ranges::unique(taken_off_);
-  taken_off_.erase(repeated.begin(), repeated.end());
+  keep_each_once(taken_off_);
   for (std::size_t i = 0, known = taken_off_.size(); i < known; ++i)
     take_off_to_lay_again(taken_off_[i]);
   settle_loose();

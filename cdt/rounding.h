@@ -37,6 +37,13 @@ inline constexpr double doubtful_rounding = 16 * detail::rounding;
   return std::abs(p.x - q.x) + std::abs(p.y - q.y) <= doubtful_rounding * reach;
 }
 
+/// Whether p is beside the segment ab, however far, and not before or behind it.
+[[nodiscard]] inline bool is_alongside(Point a, Point b, Point p) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  return (p.x - a.x) * dx + (p.y - a.y) * dy > 0 && (p.x - b.x) * dx + (p.y - b.y) * dy < 0;
+}
+
 /// Whether p is beside the segment ab, between its ends, and so near that rounding a and b may have
 /// put it on the wrong side.
 [[nodiscard]] inline bool is_hardly_beside(Point a, Point b, Point p, double slack = 1) {
@@ -46,7 +53,7 @@ inline constexpr double doubtful_rounding = 16 * detail::rounding;
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
   if (std::abs(area) > slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy)))
     return false;
-  return (p.x - a.x) * dx + (p.y - a.y) * dy > 0 && (p.x - b.x) * dx + (p.y - b.y) * dy < 0;
+  return is_alongside(a, b, p);
 }
 
 /// Whether q comes after p on the way from a to b, where both are on that line but for correct

@@ -8,15 +8,10 @@
 #include <string>
 
 #include "cdt/blocks.h"
+#include "cdt/each_once.h"
 #include "cdt/predicates.h"
 
 namespace loft::cdt {
-
-namespace {
-
-constexpr std::uint32_t no_block = 0xffff'ffff;
-
-}  // namespace
 
 Triangulation::Triangulation(double epsilon) : epsilon_(epsilon) {
   if (!(epsilon >= 0) || epsilon > largest_coordinate)
@@ -39,8 +34,8 @@ void Triangulation::clear() {
   free_triangles_.clear();
   free_vertices_.clear();
   free_constraints_.clear();
-  free_segments_.assign(size_classes, no_block);
-  dense_segments_ = no_block;
+  free_segments_.assign(size_classes, unused);
+  dense_segments_ = unused;
   snaps_.clear();
   locator_.clear();
   changes_ = {};
@@ -191,10 +186,10 @@ bool Triangulation::is_without_length(ConstraintId id) const {
 
 /// As long as nothing is removed blocks follow each other without gaps.
 std::uint32_t Triangulation::take_segments(std::uint32_t count) {
-  const bool is_dense = dense_segments_ == no_block;
+  const bool is_dense = dense_segments_ == unused;
   const auto [index, rounded] = size_class(count);
   std::uint32_t& head = free_segments_[index];
-  if (head != no_block) {
+  if (head != unused) {
     const std::uint32_t first = head;
     head = segments_[first].from.index();
     return first;
@@ -207,7 +202,7 @@ std::uint32_t Triangulation::take_segments(std::uint32_t count) {
 }
 
 void Triangulation::give_segments(std::uint32_t first, std::uint32_t count) {
-  if (dense_segments_ == no_block) dense_segments_ = static_cast<std::uint32_t>(segments_.size());
+  if (dense_segments_ == unused) dense_segments_ = static_cast<std::uint32_t>(segments_.size());
   auto [index, size] = size_class(count);
   if (first < dense_segments_ && size > count) --index;  // the largest class that fits in
   segments_[first].from = VertexId(free_segments_[index]);
@@ -332,16 +327,6 @@ std::vector<EdgeId> Triangulation::pieces(ConstraintId c) const {
   }
   return found;
 }
-
-namespace {
-
-void keep_each_once(std::vector<ConstraintId>& ids) {
-  std::ranges::sort(ids);
-  const auto repeated = std::ranges::unique(ids);
-  ids.erase(repeated.begin(), repeated.end());
-}
-
-}  // namespace
 
 std::vector<ConstraintId> Triangulation::constraints(EdgeId e) const {
   std::vector<ConstraintId> found;

@@ -394,7 +394,6 @@ class Triangulation {
   VertexId insert_near(Point point, EdgeId hint);
   [[nodiscard]] VertexId merge(Location& place, Point point) const;
   [[nodiscard]] EdgeId hint_for(Point point) const;
-  void remember(VertexId v);
   [[nodiscard]] VertexId split_at(Location place, Point point);
   [[nodiscard]] bool has_constrained_edge(TriangleId t) const {
     const OrientedEdge* e = &edges_[3 * t.index()];
@@ -464,6 +463,7 @@ class Triangulation {
   [[nodiscard]] TriangleId spare_triangle(VertexId a, VertexId b, VertexId c);
 
   // remove.cpp
+  void take_out(ConstraintId id);
   void take_off(SegmentId s);
   [[nodiscard]] bool may_be_tangled(SegmentId s) const;
   void take_off_around(VertexId start, SegmentId s);

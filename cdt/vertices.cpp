@@ -98,8 +98,6 @@ void Triangulation::join(EdgeId a, EdgeId b, PassageSet set) {
   set_at(b) = set;
 }
 
-void Triangulation::remember(VertexId v) { locator_.add(v, point(v)); }
-
 VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   Location place = locate(point, hint);
   if (place.kind == Location::Kind::vertex) {
@@ -128,7 +126,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   }
   const VertexId v = split_at(place, point);
   last_ = edge(v);
-  remember(v);
+  locator_.add(v, point);
   return v;
 }
 
@@ -383,9 +381,7 @@ bool Triangulation::can_split(EdgeId e, Point p) const {
   for (const EdgeId side : around) {
     if (from(side) == infinite || to(side) == infinite) {
       // Nothing stands in the way beyond the hull, but the point is to be beside the edge.
-      const bool is_beside = (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y) > 0 &&
-                             (p.x - b.x) * (b.x - a.x) + (p.y - b.y) * (b.y - a.y) < 0;
-      if (!is_beside || p == a || p == b) return false;
+      if (!is_alongside(a, b, p) || p == a || p == b) return false;
       if (orient(a, b, p) == 0 && !is_between(a, b, p)) return false;
     } else if (orient(point(from(side)), point(to(side)), p) <= 0) {
       return false;
