@@ -10,6 +10,7 @@
 
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
+#include "reconstruct/smooth.h"
 #include "reconstruct/tiles.h"
 
 namespace loft {
@@ -204,6 +205,25 @@ std::vector<TileSet> tile_all(const std::vector<Region>& regions, const Progress
   return slabs;
 }
 
+/// The slices around each slab.
+Surroundings surroundings(std::span<const SliceShape> shapes, std::size_t slab) {
+  Surroundings found{};
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (slab + k >= 1 && slab + k - 1 < shapes.size()) found[k] = &shapes[slab + k - 1];
+  return found;
+}
+
+void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
+                const Progress& progress) {
+  const Reporter reporter(progress, Stage::smooth, slabs.size());
+  const std::vector<SliceShape> shapes(regions.begin(), regions.end());
+  for (std::size_t i = 0; i < slabs.size(); ++i) {
+    slabs[i] =
+        smooth(regions[i], regions[i + 1], surroundings(shapes, i), std::move(slabs[i]));
+    reporter.report(i + 1);
+  }
+}
+
 void check_enough(std::span<const Region> regions) {
   const auto filled =
       std::ranges::count_if(regions, [](const Region& region) { return !region.is_empty(); });
@@ -235,7 +255,8 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   auto regions = trim(clean_all(layers, options.fill, result.repairs, progress), result.repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
-  const auto slabs = tile_all(regions, progress);
+  auto slabs = tile_all(regions, progress);
+  if (options.smooth) smooth_all(regions, slabs, progress);
   report_unlinked(regions, slabs, result.repairs);
   const Reporter sewing(progress, Stage::sew, 1);
   result.surface = sew(regions, slabs, options.cap);
