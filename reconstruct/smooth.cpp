@@ -22,7 +22,7 @@ constexpr std::uint32_t none = Origin::none;
 
 /// An edge is split where its middle is further from the smooth surface than that share of the
 /// slab's height, at most that many times over. On 19 stacks a fourth round gained less than 2%.
-constexpr double coarseness = 0.015;
+constexpr double coarseness = 0.01;
 constexpr int most_rounds = 3;
 
 /// How far a vertex may go: new ones as a share of their edge, those of forks and ends as a share
@@ -37,6 +37,9 @@ constexpr double least_share = 0.02;
 /// Where the function is flatter than that, its zero is not near.
 constexpr double least_gradient = 0.2;
 constexpr int newton_steps = 3;
+
+/// A place is on the smooth surface if it is nearer than that share of the slab's height.
+constexpr double nearness = 0.003;
 
 /// Where bent tiles meet they are straightened by half, and wholly below that share.
 constexpr double least_bend = 0.2;
@@ -230,6 +233,7 @@ class Smoothing {
     for (int step = 0; step < newton_steps; ++step) {
       const Sample sample = surface.at(along(p, 1, way));
       const double steepness = std::max(length(sample.gradient), least_gradient);
+      if (std::abs(sample.value) < nearness * height() * steepness) break;
       way = along(way, -sample.value / (steepness * steepness), sample.gradient);
       const double least = least_share * height();
       way[2] = std::clamp(p[2] + way[2], lower_.z + least, upper_.z - least) - p[2];
@@ -258,7 +262,6 @@ class Smoothing {
 
   /// Splits every edge whose middle is off the smooth surface. Returns whether there was one.
   bool refine() {
-    EdgeIndex middles;
     std::vector<Tile> tiles;
     std::vector<std::uint32_t> pieces;
     for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
@@ -266,7 +269,7 @@ class Smoothing {
       const std::uint32_t piece = pieces_.of_tiles()[t];
       std::array<std::uint32_t, 3> split;
       for (std::size_t i = 0; i < 3; ++i)
-        split[i] = middle_of(tile.nodes[i], tile.nodes[(i + 1) % 3], piece, middles);
+        split[i] = middle_of(tile.nodes[i], tile.nodes[(i + 1) % 3], piece);
       cut(tile, split, tiles);
       pieces.resize(tiles.size(), piece);
     }
@@ -277,10 +280,9 @@ class Smoothing {
   }
 
   /// The node that an edge is split at; none if it stays.
-  std::uint32_t middle_of(std::uint32_t a, std::uint32_t b, std::uint32_t piece,
-                          EdgeIndex& middles) {
+  std::uint32_t middle_of(std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
     if (is_contour(a, b)) return none;
-    const auto [node, is_known] = middles.at(a, b);
+    const auto [node, is_known] = middles_.at(a, b);
     if (is_known) return node;
     const Vec3 start = middle(place(a), place(b));
     const Vec3 way = way_to(pieces_.shape(piece), start,
@@ -384,6 +386,7 @@ class Smoothing {
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
   std::vector<Move> moves_;  // of each inner vertex
+  EdgeIndex middles_;        // the node that each edge is split at; none if it stays
   int round_ = 0;
 };
 

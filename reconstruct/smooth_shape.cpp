@@ -21,10 +21,10 @@ constexpr double end_turn = 0.75;
 /// No tangent is flatter than that, in radians.
 constexpr double steepest = 1.5;
 
-/// Heights of ends as shares of the slab. Half of it is what to expect of a top that may be
-/// anywhere between two slices.
+/// Heights of ends as shares of the slab. What to expect where there is no trend is what ends
+/// without --smooth have (see SheetHeights).
 constexpr double lowest_end = 0.1;
-constexpr double expected_end = 0.5;
+constexpr double expected_end = 0.7;
 constexpr double highest_end = 0.75;
 
 /// From one slice to the next at one place: how the distance changes with z.
