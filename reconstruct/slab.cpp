@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
 
 namespace loft {
 
-Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift)
-    : lower_(lower), upper_(upper), shift_(shift) {
+Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift, cdt::Triangulation memory)
+    : lower_(lower), upper_(upper), shift_(shift), overlay_(std::move(memory)) {
+  overlay_.clear();
   overlay_.reserve(lower.points.size() + upper.points.size());
   insert_loops(lower, overlay_);
   insert_loops(upper, overlay_, shift);
