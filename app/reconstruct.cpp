@@ -120,7 +120,7 @@ std::list<Result> reconstruct_all(const ReconstructCommand& command,
     Follower follower(terminal, names[i], share * static_cast<double>(i), share);
     try {
       Result& result = results.emplace_back(stack, options, follower);
-      if (is_measured) result.report.measures = measure(to_mesh(result.made.surface));
+      if (is_measured) result.report.measures = measure(result.made.surface);
     } catch (const InputError& error) {
       if (!problems.empty()) problems += '\n';
       problems += with_place(error.what(), place_of(command, options));
@@ -185,7 +185,7 @@ ExitCode run(const ReconstructCommand& command) {
   check_outputs(command);
   catch_interrupts();
 
-  const std::vector<Slice> stack = io::read_slices(command.inputs);
+  const std::vector<Slice> stack = io::read_slices(command.inputs, command.options.threads);
   report.input = size_of(stack);
   report.input.slices = stack.size();
   report.seconds["read"] = stopwatch.lap();

@@ -198,8 +198,10 @@ std::vector<Region> clean_all(const std::vector<Height>& layers, const Options& 
   Reporter reporter(progress, Stage::clean, layers.size());
   std::vector<Region> regions(layers.size());
   std::vector<std::vector<Defect>> found(layers.size());
-  for_each_index(layers.size(), options.threads, [&](std::size_t i, unsigned) {
-    regions[i] = clean(layers[i].contours, layers[i].z, options.fill, found[i]);
+  std::vector<Triangulation> memories(thread_count(options.threads));
+  for_each_index(layers.size(), options.threads, [&](std::size_t i, unsigned worker) {
+    regions[i] =
+        clean(layers[i].contours, layers[i].z, options.fill, found[i], memories[worker]);
     regions[i].slice = layers[i].slice;
     reporter.add_step();
   });

@@ -108,17 +108,19 @@ class Assembly {
   }
 
   /// Of two half-edges the first one makes the edge.
-  [[nodiscard]] bool makes_edge(std::uint32_t number_of_h, HalfEdge mate) const {
-    return mate.is_none() || number_of_h < number(mate);
+  [[nodiscard]] static bool makes_edge(HalfEdge h, HalfEdge mate) {
+    return mate.is_none() || h < mate;
   }
 
   /// The first edge of each group, and their number.
   [[nodiscard]] std::vector<std::uint32_t> number_edges() const {
     std::vector<std::uint32_t> firsts(sewing_.layer_bound() + 2);
     for_each_group([&](std::uint32_t group) {
-      for_each_half_edge(group, [&](HalfEdge h, std::uint32_t number_of_h) {
-        if (makes_edge(number_of_h, sewing_.mate(h))) ++firsts[group + 1];
+      std::uint32_t count = 0;
+      for_each_half_edge(group, [&](HalfEdge h, std::uint32_t) {
+        if (makes_edge(h, sewing_.mate(h))) ++count;
       });
+      firsts[group + 1] = count;
     });
     for (std::size_t i = 1; i < firsts.size(); ++i) firsts[i] += firsts[i - 1];
     return firsts;
@@ -155,7 +157,7 @@ class Assembly {
     auto next = static_cast<int>(2 * first_edge);
     for_each_half_edge(group, [&](HalfEdge h, std::uint32_t number_of_h) {
       const HalfEdge mate = sewing_.mate(h);
-      if (!makes_edge(number_of_h, mate)) return;
+      if (!makes_edge(h, mate)) return;
       const Handle handle(next);
       const Handle opposite(next + 1);
       next += 2;

@@ -87,9 +87,9 @@ std::uint32_t Sewing::vertex(HalfEdge corner) const {
   const State& state = at(corner.layer);
   const std::uint32_t node = state.node(corner.index);
   if ((node & is_doubled) != 0) return node;
-  if (node < state.lower_count()) return state.lower + node;
-  if (node < state.contour_count()) return state.upper + (node - state.lower_count());
-  return state.inner + (node - state.contour_count());
+  if (node < state.lower_count) return state.lower + node;
+  if (node < state.contour_count) return state.upper + (node - state.lower_count);
+  return state.inner + (node - state.contour_count);
 }
 
 std::uint32_t Sewing::final_number(std::uint32_t vertex) const {
@@ -130,8 +130,11 @@ void Sewing::number(State& state) {
   const bool is_first = layers_.size() == 1 && first_layer_ == 0;
   const State* const below = layers_.size() > 1 ? &layers_[layers_.size() - 2] : nullptr;
   assert(is_first || below != nullptr);
+  state.lower_count = static_cast<std::uint32_t>(state.layer.lower->points.size());
+  state.contour_count =
+      state.lower_count + static_cast<std::uint32_t>(state.layer.upper->points.size());
   state.lower = is_first ? 0 : below->upper;
-  state.inner = state.lower + state.lower_count();
+  state.inner = state.lower + state.lower_count;
   state.upper = state.inner + static_cast<std::uint32_t>(state.layer.tiles.inner.size());
   state.face_count = static_cast<std::uint32_t>(state.layer.tiles.tiles.size());
   state.first_face = face_count_;
@@ -205,7 +208,7 @@ void Sewing::pair_within(std::uint32_t layer) {
 /// Counts corners; tells half-edges that lie in a slice from the others, and finds where the list
 /// of those with a given smaller node ends.
 void Sewing::sort_out(State& state, std::vector<std::uint32_t>& ends) {
-  const auto node_count = state.contour_count() + state.layer.tiles.inner.size();
+  const auto node_count = state.contour_count + state.layer.tiles.inner.size();
   state.mates.assign(3 * state.face_count, none);
   state.corner_counts.assign(node_count, 0);
   state.first_corners.assign(node_count, none);
@@ -218,7 +221,7 @@ void Sewing::sort_out(State& state, std::vector<std::uint32_t>& ends) {
     if (!state.is_in_slice(a, b)) {
       ++ends[std::min(a, b)];
     } else {
-      (a < state.lower_count() ? state.lower_rim : state.upper_rim).push_back(h);
+      (a < state.lower_count ? state.lower_rim : state.upper_rim).push_back(h);
     }
   }
   std::partial_sum(ends.begin(), ends.end(), ends.begin());
@@ -251,13 +254,13 @@ bool Sewing::pair_contours_at(std::uint32_t layer) {
   const State& below = at(layer - 1);
   const State& above = at(layer);
   if (below.upper_rim.size() != above.lower_rim.size()) return false;
-  std::vector<std::uint32_t> leaving(above.lower_count(), none);  // each point, above
+  std::vector<std::uint32_t> leaving(above.lower_count, none);  // each point, above
   for (const std::uint32_t h : above.lower_rim) {
     std::uint32_t& here = leaving[above.node(h)];
     if (here != none) return false;
     here = h;
   }
-  const auto point = [&](HalfEdge h) { return below.node(h.index) - below.lower_count(); };
+  const auto point = [&](HalfEdge h) { return below.node(h.index) - below.lower_count; };
   for (const std::uint32_t index : below.upper_rim) {
     const HalfEdge h{layer - 1, index};
     const std::uint32_t opposite = leaving[point(next(h))];
@@ -334,7 +337,7 @@ bool Sewing::is_one_fan_at(std::uint32_t layer, std::uint32_t point) const {
     first = {of, state.first_corners[node]};
   };
   if (has(layer)) look(layer, point);
-  if (layer > 0) look(layer - 1, at(layer - 1).lower_count() + point);
+  if (layer > 0) look(layer - 1, at(layer - 1).lower_count + point);
   if (corners == 0) return true;
   std::uint32_t count = 0;
   for_each_in_fan(first, [&](HalfEdge) { ++count; });
@@ -355,10 +358,10 @@ void Sewing::find_fans(std::uint32_t layer, Found& found) const {
   for (std::uint32_t p = 0; p < slice.points.size(); ++p) {
     if (is_one_fan_at(layer, p)) continue;
     if (has(layer)) note(slots, layer, p);
-    if (layer > 0) note(slots_below, layer - 1, at(layer - 1).lower_count() + p);
+    if (layer > 0) note(slots_below, layer - 1, at(layer - 1).lower_count + p);
     ++slot_count;
   }
-  for (std::uint32_t n = has(layer) ? at(layer).contour_count() : none;
+  for (std::uint32_t n = has(layer) ? at(layer).contour_count : none;
        has(layer) && n < at(layer).corner_counts.size(); ++n) {
     if (is_one_fan(layer, n)) continue;
     note(slots, layer, n);
@@ -419,9 +422,9 @@ void Sewing::finalise(std::uint32_t layer) {
 Origin Sewing::origin(HalfEdge corner) const {
   const State& state = at(corner.layer);
   std::uint32_t node = state.node(corner.index);
-  if (node < state.lower_count()) return state.layer.lower->origins[node];
-  if (node < state.contour_count()) return state.layer.upper->origins[node - state.lower_count()];
-  const InnerVertex& vertex = state.layer.tiles.inner[node - state.contour_count()];
+  if (node < state.lower_count) return state.layer.lower->origins[node];
+  if (node < state.contour_count) return state.layer.upper->origins[node - state.lower_count];
+  const InnerVertex& vertex = state.layer.tiles.inner[node - state.contour_count];
   return {vertex.kind, state.layer.slice, Origin::none, Origin::none};
 }
 

@@ -112,6 +112,8 @@ class Sewing {
   };
   struct State {
     Layer layer;
+    std::uint32_t lower_count = 0;    // nodes of the slice below
+    std::uint32_t contour_count = 0;  // and of that above
     std::uint32_t lower = 0;  // number of the first vertex of the slice below
     std::uint32_t inner = 0;  // of the first inner vertex
     std::uint32_t upper = 0;  // of the first vertex of the slice above
@@ -125,18 +127,12 @@ class Sewing {
     std::vector<Crowd> crowds;
     std::vector<Fan> fans;  // those that begin here and need a vertex of their own
 
-    [[nodiscard]] std::uint32_t lower_count() const {
-      return static_cast<std::uint32_t>(layer.lower->points.size());
-    }
-    [[nodiscard]] std::uint32_t contour_count() const {
-      return lower_count() + static_cast<std::uint32_t>(layer.upper->points.size());
-    }
     [[nodiscard]] std::uint32_t node(std::uint32_t half_edge) const {
       return layer.tiles.tiles[half_edge / 3].nodes[half_edge % 3];
     }
     /// Whether both nodes are in one slice.
     [[nodiscard]] bool is_in_slice(std::uint32_t a, std::uint32_t b) const {
-      return std::max(a, b) < contour_count() && (a < lower_count()) == (b < lower_count());
+      return std::max(a, b) < contour_count && (a < lower_count) == (b < lower_count);
     }
   };
   /// What is found where two layers meet, to be taken over in the order of layers.

@@ -88,6 +88,7 @@ class Slab {
 
  private:
   void note_vertices(Level level);
+  [[nodiscard]] bool is_lower(cdt::EdgeId e, double height) const;
 
   const Region& lower_;
   const Region& upper_;
