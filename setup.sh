@@ -8,8 +8,8 @@
 #   sh setup.sh bench    what the libraries and the benchmarks need
 set -eu
 
-packages="g++ cmake ninja-build pkg-config libopenmesh-dev libeigen3-dev libtinygltf-dev
-  libcli11-dev nlohmann-json3-dev"
+packages="g++ cmake ninja-build pkg-config libopenmesh-dev libeigen3-dev libtbb-dev
+  libtinygltf-dev libcli11-dev nlohmann-json3-dev"
 what=${1:-}
 if [ "$what" = fuzz ]; then
   packages="$packages clang-16 libclang-rt-16-dev"

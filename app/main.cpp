@@ -83,6 +83,10 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
          "What closes the first and last slice (default flat)")
       ->type_name("CAP")
       ->check(CLI::IsMember({"flat", "dome", "open"}));
+  sub->add_option("--threads", command.options.threads,
+                  "Threads that work at the same time; 0 (default): as many as the machine has")
+      ->type_name("N")
+      ->check(CLI::Range(0U, 1024U));
   sub->add_option_function<std::string>(
          "--unit",
          [&command](const std::string& unit) { command.metres_per_unit = *metres_per_unit(unit); },

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <iostream>
+#include <list>
 #include <map>
 #include <utility>
 
@@ -74,23 +75,19 @@ void check_outputs(const ReconstructCommand& command) {
 }
 
 struct Result {
-  Surface surface;
+  /// Made in its place, and stays there: an OpenMesh mesh cannot be moved, only copied.
+  Result(const std::vector<Slice>& stack, const Options& options, Follower& follower)
+      : made(reconstruct(stack, options, std::ref(follower))) {
+    report.label = options.label.value_or("");
+    report.input = size_of(stack, options.label);
+    report.seconds = follower.finish();
+    report.vertices_of_kind = count_kinds(made.surface);
+    report.repairs = std::move(made.repairs);
+  }
+
+  Reconstruction made;
   PartReport report;
 };
-
-Result reconstruct_label(const std::vector<Slice>& stack, const Options& options,
-                         Follower& follower, bool is_measured) {
-  Reconstruction made = reconstruct(stack, options, std::ref(follower));
-  Result result;
-  result.report.label = options.label.value_or("");
-  result.report.input = size_of(stack, options.label);
-  result.report.seconds = follower.finish();
-  result.report.vertices_of_kind = count_kinds(made.surface);
-  if (is_measured) result.report.measures = measure(to_mesh(made.surface));
-  result.report.repairs = std::move(made.repairs);
-  result.surface = std::move(made.surface);
-  return result;
-}
 
 /// `stack.ndjson: label 'heart': ` in front of each line, as far as there is a choice.
 std::string with_place(const std::string& lines, const std::string& place) {
@@ -110,21 +107,22 @@ std::string place_of(const ReconstructCommand& command, const Options& options) 
 }
 
 /// All labels, or one InputError for all that cannot be reconstructed.
-std::vector<Result> reconstruct_all(const ReconstructCommand& command,
+std::list<Result> reconstruct_all(const ReconstructCommand& command,
                                     const std::vector<Slice>& stack, Terminal& terminal) {
   std::vector<std::string> names = labels(stack);
   if (names.empty()) names.emplace_back();
   const bool is_labelled = names.size() > 1 || !names[0].empty();
   const bool is_measured = command.json || !command.quiet;  // else nobody sees it
   const double share = 1.0 / static_cast<double>(names.size());
-  std::vector<Result> results;
+  std::list<Result> results;
   std::string problems;
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;
     if (is_labelled) options.label = names[i];
     Follower follower(terminal, names[i], share * static_cast<double>(i), share);
     try {
-      results.push_back(reconstruct_label(stack, options, follower, is_measured));
+      Result& result = results.emplace_back(stack, options, follower);
+      if (is_measured) result.report.measures = measure(result.made.surface);
     } catch (const InputError& error) {
       if (!problems.empty()) problems += '\n';
       problems += with_place(error.what(), place_of(command, options));
@@ -161,16 +159,16 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   return options;
 }
 
-void write_all(const ReconstructCommand& command, const std::vector<Result>& results) {
+void write_all(const ReconstructCommand& command, const std::list<Result>& results) {
   std::vector<io::Part> parts;
-  for (const Result& result : results) parts.push_back({result.report.label, &result.surface});
+  for (const Result& result : results) parts.push_back({result.report.label, &result.made.surface});
   for (const path& output : command.outputs) {
     if (is_interrupted()) throw Cancelled();
     io::write(output, parts, write_options(command));
   }
 }
 
-void say_summary(const ReconstructCommand& command, const std::vector<Result>& results,
+void say_summary(const ReconstructCommand& command, const std::list<Result>& results,
                  Terminal& terminal) {
   for (const Result& result : results) {
     const std::string& label = result.report.label;
@@ -189,12 +187,12 @@ ExitCode run(const ReconstructCommand& command) {
   check_outputs(command);
   catch_interrupts();
 
-  const std::vector<Slice> stack = io::read_slices(command.inputs);
+  const std::vector<Slice> stack = io::read_slices(command.inputs, command.options.threads);
   report.input = size_of(stack);
   report.input.slices = stack.size();
   report.seconds["read"] = stopwatch.lap();
 
-  std::vector<Result> results = reconstruct_all(command, stack, terminal);
+  std::list<Result> results = reconstruct_all(command, stack, terminal);
   for (const Result& result : results) warn(command, result.report, terminal);
   for (const Result& result : results) {
     for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;

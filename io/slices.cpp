@@ -15,7 +15,7 @@ namespace loft::io {
 
 namespace {
 
-using Reader = std::vector<Slice> (*)(std::istream&, std::string_view name);
+using Reader = std::vector<Slice> (*)(std::istream&, std::string_view name, unsigned threads);
 
 struct Format {
   std::string_view extension;
@@ -48,8 +48,8 @@ bool is_slice_file(const std::filesystem::path& path) {
   return path == "-" || find_format(path) != nullptr;
 }
 
-std::vector<Slice> read_slices(const std::filesystem::path& path) {
-  if (path == "-") return read_slices_json(std::cin, "standard input");
+std::vector<Slice> read_slices(const std::filesystem::path& path, unsigned threads) {
+  if (path == "-") return read_slices_json(std::cin, "standard input", threads);
 
   if (std::filesystem::is_directory(path)) {
     throw FileError(Access::read, path, "it is a folder");
@@ -58,15 +58,15 @@ std::vector<Slice> read_slices(const std::filesystem::path& path) {
   if (!file) throw FileError(Access::read, path, last_cause());
   const Format* const format = find_format(path);
   if (format == nullptr) throw UnknownFormat(path, slice_extensions());
-  return format->read(file, path.string());
+  return format->read(file, path.string(), threads);
 }
 
-std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths) {
+std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths, unsigned threads) {
   std::vector<Slice> slices;
   std::string problems;
   for (const std::filesystem::path& path : paths) {
     try {
-      std::vector<Slice> some = read_slices(path);
+      std::vector<Slice> some = read_slices(path, threads);
       std::ranges::move(some, std::back_inserter(slices));
     } catch (const InputError& error) {
       if (!problems.empty()) problems += '\n';

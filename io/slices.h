@@ -15,11 +15,14 @@ namespace loft::io {
 /// sorted or merged. The extension chooses the reader; `-` is standard input, as NDJSON.
 ///
 /// Throws FileError where the file cannot be read, UnknownFormat, and InputError that lists all bad
-/// lines; a file without any slice is bad, too.
-[[nodiscard]] std::vector<Slice> read_slices(const std::filesystem::path& path);
+/// lines; a file without any slice is bad, too. `threads` is how many read at the same time; 0: as
+/// many as the machine has.
+[[nodiscard]] std::vector<Slice> read_slices(const std::filesystem::path& path,
+                                             unsigned threads = 0);
 
 /// The slices of several files one after the other. Bad lines of all of them are listed.
-[[nodiscard]] std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths);
+[[nodiscard]] std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths,
+                                             unsigned threads = 0);
 
 /// The extensions that read_slices() knows, in lower case: `.ndjson .jsonl .json`.
 [[nodiscard]] std::string slice_extensions();

@@ -12,10 +12,16 @@
 #include "io/slice_line.h"
 #include "io/text.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/parallel.h"
 
 namespace loft::io {
 
 namespace {
+
+struct NumberedLine {
+  std::string text;
+  std::size_t number = 0;  // in the file, from 1
+};
 
 bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
@@ -36,17 +42,53 @@ std::string place(std::string_view name, std::size_t line, std::size_t slice,
 
 }  // namespace
 
-std::vector<Slice> read_slices_json(std::istream& in, std::string_view name) {
+namespace {
+
+/// Reads lines with something in them, as many as make it worth to share them out.
+class Batches {
+ public:
+  explicit Batches(std::istream& in) : in_(in) {}
+
+  /// The next lines; none at the end.
+  [[nodiscard]] std::span<const NumberedLine> next() {
+    std::size_t size = 0;
+    std::size_t count = 0;
+    while (size < batch_size) {
+      if (count == lines_.size()) lines_.emplace_back();
+      NumberedLine& line = lines_[count];
+      if (!std::getline(in_, line.text)) break;
+      line.number = ++number_;
+      if (number_ == 1) line.text = without_mark(line.text);
+      if (is_blank(line.text)) continue;
+      size += line.text.size();
+      ++count;
+    }
+    return std::span(lines_).first(count);
+  }
+
+ private:
+  static constexpr std::size_t batch_size = std::size_t{1} << 20U;
+
+  std::istream& in_;
+  std::size_t number_ = 0;
+  std::vector<NumberedLine> lines_;  // their memory is used again
+};
+
+}  // namespace
+
+std::vector<Slice> read_slices_json(std::istream& in, std::string_view name, unsigned threads) {
   std::vector<Slice> slices;
   Problems problems;
-  std::string line;
-  for (std::size_t number = 1; std::getline(in, line); ++number) {
-    if (number == 1) line = without_mark(line);
-    if (is_blank(line)) continue;
-    SliceLine parsed = parse_slice_line(line);
-    const std::string where = place(name, number, slices.size(), parsed);
-    for (const std::string& problem : parsed.problems) problems.add(where + problem);
-    slices.push_back(std::move(parsed.slice));
+  Batches batches(in);
+  for (auto lines = batches.next(); !lines.empty(); lines = batches.next()) {
+    std::vector<SliceLine> parsed(lines.size());
+    for_each_index(lines.size(), threads,
+                   [&](std::size_t i, unsigned) { parsed[i] = parse_slice_line(lines[i].text); });
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      for (const std::string& problem : parsed[i].problems)
+        problems.add(place(name, lines[i].number, slices.size(), parsed[i]) + problem);
+      slices.push_back(std::move(parsed[i].slice));
+    }
   }
   if (in.bad()) throw FileError(Access::read, std::filesystem::path(name), "read failed");
   problems.raise(name);

@@ -22,8 +22,10 @@ namespace loft::io {
 ///
 /// Coordinates must be finite numbers. Throws InputError that names `name`, line, slice, contour
 /// and point of each bad place (the first 20, and how many more), also for a stream without slices;
-/// FileError if reading fails. Cost: O(n); one line is in memory at a time.
-[[nodiscard]] std::vector<Slice> read_slices_json(std::istream& in, std::string_view name);
+/// FileError if reading fails. Lines are read in parallel by so many threads; 0: as many as the
+/// machine has. Cost: O(n); a few lines are in memory at a time.
+[[nodiscard]] std::vector<Slice> read_slices_json(std::istream& in, std::string_view name,
+                                                  unsigned threads = 0);
 
 /// Writes slices so that read_slices_json() gives them back, exactly.
 /// Precondition: all numbers are finite, labels are UTF-8.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <utility>
 
 #include "cdt/regions.h"
 
@@ -27,6 +28,30 @@ std::vector<std::array<std::uint32_t, 3>> flat_cap(const Region& region) {
     triangles.push_back(corners);
   }
   return triangles;
+}
+
+namespace {
+
+/// What is beyond a cap.
+const Region& nothing() {
+  static const Region region;
+  return region;
+}
+
+}  // namespace
+
+Layer bottom_cap(const Region& region) {
+  Layer layer{&nothing(), &region, {}, 0, region.slice};
+  for (const auto& [a, b, c] : flat_cap(region))
+    layer.tiles.tiles.push_back({{b, a, c}, FaceKind::bottom_cap});
+  return layer;
+}
+
+Layer top_cap(const Region& region, std::uint32_t slab, std::uint32_t slice) {
+  Layer layer{&region, &nothing(), {}, slab, slice};
+  for (const auto& corners : flat_cap(region))
+    layer.tiles.tiles.push_back({corners, FaceKind::top_cap});
+  return layer;
 }
 
 }  // namespace loft

@@ -35,9 +35,10 @@ Point middle(Point a, Point b, Point c) {
 Lift::Lift(Slab& slab)
     : slab_(slab),
       mesh_(slab.overlay()),
-      lower_count_(static_cast<std::uint32_t>(slab.lower().points.size())) {
+      lower_count_(static_cast<std::uint32_t>(slab.lower().points.size())),
+      contour_count_(lower_count_ + static_cast<std::uint32_t>(slab.upper().points.size())) {
+  lift_vertices();
   decide_columns();
-  lift_crossings();
   for (int round = 0; round < most_rounds && insert(find_chords()); ++round) {
   }
   insert(find_coarse_ends());
@@ -45,30 +46,9 @@ Lift::Lift(Slab& slab)
 
 std::uint32_t Lift::node(EdgeId corner) const {
   const VertexId v = mesh_.from(corner);
-  switch (height(corner)) {
-    case Height::lower:
-      return node(slab_.index(v, Level::lower), Level::lower);
-    case Height::upper:
-      return node(slab_.index(v, Level::upper), Level::upper);
-    default:
-      return node(v);
-  }
-}
-
-std::uint32_t Lift::node(VertexId v) const {
-  for (const Level level : {Level::lower, Level::upper})
-    if (slab_.is_vertex(v, level)) return node(slab_.index(v, level), level);
-  return lower_count_ + static_cast<std::uint32_t>(slab_.upper().points.size()) +
-         inner_index_[v.index()];
-}
-
-Lift::Height Lift::height(EdgeId corner) const {
-  const VertexId v = mesh_.from(corner);
-  const bool is_lower = slab_.is_vertex(v, Level::lower);
-  const bool is_upper = slab_.is_vertex(v, Level::upper);
-  if (is_lower && is_upper) return column_heights_[corner.index()];
-  if (is_lower) return Height::lower;
-  return is_upper ? Height::upper : Height::between;
+  const bool is_upper_of_column =
+      heights_[v.index()] == Height::by_wedge && column_heights_[corner.index()] == Height::upper;
+  return is_upper_of_column ? node(slab_.index(v, Level::upper), Level::upper) : node(v);
 }
 
 std::vector<Lift::Wedge> Lift::wedges(VertexId column) const {
@@ -123,9 +103,9 @@ void Lift::set_heights(const Wedge& wedge, Level level) {
 
 void Lift::decide_columns() {
   for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i)
-    if (slab_.is_column(VertexId(i))) columns_.push_back(VertexId(i));
+    if (heights_[i] == Height::by_wedge) columns_.push_back(VertexId(i));
   std::ranges::sort(columns_, {}, [&](VertexId v) { return mesh_.point(v); });
-  if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::undecided);
+  if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::by_wedge);
   for (const VertexId v : columns_) {
     for (const Wedge& wedge : wedges(v)) {
       const Level level = choose(wedge);
@@ -137,26 +117,39 @@ void Lift::decide_columns() {
 
 /// After splits: contour edges at a column stay, so wedges are known by their first one.
 void Lift::restore_columns() {
-  if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::undecided);
+  if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::by_wedge);
   for (const VertexId v : columns_)
     for (const Wedge& wedge : wedges(v))
       set_heights(wedge, choices_.at({v, mesh_.passages(wedge.first).front().segment()}));
 }
 
-void Lift::lift_crossings() {
-  inner_index_.assign(mesh_.vertex_bound(), Origin::none);
+/// Contour vertices have the heights of their slices, crossings lie half way.
+void Lift::lift_vertices() {
+  nodes_.assign(mesh_.vertex_bound(), Origin::none);
+  heights_.assign(mesh_.vertex_bound(), Height::between);
   const double half_way = slab_.lower().z + slab_.height() / 2;
   for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i) {
     const VertexId v(i);
-    if (mesh_.is_vertex(v) && !slab_.is_vertex(v, Level::lower) &&
-        !slab_.is_vertex(v, Level::upper))
+    const std::uint32_t lower = slab_.index(v, Level::lower);
+    const std::uint32_t upper = slab_.index(v, Level::upper);
+    if (lower != Origin::none) {
+      nodes_[i] = node(lower, Level::lower);
+      heights_[i] = upper != Origin::none ? Height::by_wedge : Height::lower;
+    } else if (upper != Origin::none) {
+      nodes_[i] = node(upper, Level::upper);
+      heights_[i] = Height::upper;
+    } else if (mesh_.is_vertex(v)) {
       add_inner(v, half_way, VertexKind::crossing);
+    }
   }
 }
 
 void Lift::add_inner(VertexId v, double z, VertexKind kind) {
-  if (inner_index_.size() <= v.index()) inner_index_.resize(v.index() + 1, Origin::none);
-  inner_index_[v.index()] = static_cast<std::uint32_t>(inner_.size());
+  if (nodes_.size() <= v.index()) {
+    nodes_.resize(v.index() + 1, Origin::none);
+    heights_.resize(v.index() + 1, Height::between);
+  }
+  nodes_[v.index()] = contour_count_ + static_cast<std::uint32_t>(inner_.size());
   inner_.push_back({slab_.place(v, z), kind});
 }
 
@@ -233,7 +226,7 @@ double Lift::z_at(EdgeId corner) const {
     case Height::upper:
       return slab_.upper().z;
     default:
-      return inner_[inner_index_[mesh_.from(corner).index()]].place[2];
+      return inner_[node(mesh_.from(corner)) - contour_count_].place[2];
   }
 }
 

@@ -32,7 +32,7 @@ class Lift {
   /// The node at from(corner), seen from the sheet triangle left of it.
   [[nodiscard]] std::uint32_t node(cdt::EdgeId corner) const;
   /// The node of an overlay vertex beside which there is no sheet.
-  [[nodiscard]] std::uint32_t node(cdt::VertexId v) const;
+  [[nodiscard]] std::uint32_t node(cdt::VertexId v) const { return nodes_[v.index()]; }
   /// The node of a contour vertex.
   [[nodiscard]] std::uint32_t node(std::uint32_t point, Level level) const {
     return level == Level::lower ? point : lower_count_ + point;
@@ -40,7 +40,8 @@ class Lift {
   [[nodiscard]] const std::vector<InnerVertex>& inner() const { return inner_; }
 
  private:
-  enum class Height : std::uint8_t { undecided, lower, upper, between };
+  /// Of a column only its wedges have heights; of a vertex that is a column: `by_wedge`.
+  enum class Height : std::uint8_t { by_wedge, lower, upper, between };
   /// The sheet triangles around a column between two contour edges.
   struct Wedge {
     cdt::EdgeId first;  // contour edge on its right
@@ -58,14 +59,17 @@ class Lift {
   [[nodiscard]] static Height height(Level level) {
     return level == Level::lower ? Height::lower : Height::upper;
   }
-  [[nodiscard]] Height height(cdt::EdgeId corner) const;
+  [[nodiscard]] Height height(cdt::EdgeId corner) const {
+    const Height height = heights_[mesh_.from(corner).index()];
+    return height == Height::by_wedge ? column_heights_[corner.index()] : height;
+  }
   [[nodiscard]] std::vector<Wedge> wedges(cdt::VertexId column) const;
   [[nodiscard]] Level choose(const Wedge& wedge) const;
   [[nodiscard]] int chords(const Wedge& wedge, Level level) const;
   void set_heights(const Wedge& wedge, Level level);
   void decide_columns();
   void restore_columns();
-  void lift_crossings();
+  void lift_vertices();
   [[nodiscard]] std::vector<Steiner> find_chords() const;
   [[nodiscard]] std::vector<Steiner> find_coarse_ends() const;
   bool insert(std::vector<Steiner> steiners);
@@ -79,8 +83,10 @@ class Lift {
   Slab& slab_;
   const cdt::Triangulation& mesh_;
   std::uint32_t lower_count_;
+  std::uint32_t contour_count_;
   std::vector<InnerVertex> inner_;
-  std::vector<std::uint32_t> inner_index_;  // of each overlay vertex, or Origin::none
+  std::vector<std::uint32_t> nodes_;        // of each overlay vertex; of a column the lower one
+  std::vector<Height> heights_;             // of each overlay vertex
   std::vector<cdt::VertexId> columns_;      // in the order of their places
   std::vector<Height> column_heights_;      // of each corner at a column
   std::map<std::pair<cdt::VertexId, cdt::SegmentId>, Level> choices_;  // by a wedge's first edge

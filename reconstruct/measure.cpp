@@ -2,6 +2,7 @@
 #include "reconstruct/measure.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -47,17 +48,37 @@ int genus(const Measures& m) {
   return static_cast<int>((2 * static_cast<std::int64_t>(m.components) - euler) / 2);
 }
 
-/// Seen from a corner of the mesh, so that its place in space costs no accuracy.
-void measure_area_and_volume(const Mesh& mesh, std::span<const std::uint32_t> faces, Measures& m) {
-  if (faces.empty()) return;
-  const Vec3 origin = mesh.points[mesh.faces[faces.front()][0]];
-  for (const std::uint32_t face : faces) {
-    const auto [i, j, k] = mesh.faces[face];
-    const Vec3& a = mesh.points[i];
-    const Vec3 normal = cross(minus(mesh.points[j], a), minus(mesh.points[k], a));
-    m.area += std::sqrt(dot(normal, normal)) / 2;
-    m.volume += dot(normal, minus(a, origin)) / 6;
+/// Adds up faces, seen from a corner of the mesh, so that its place in space costs no accuracy.
+class Sum {
+ public:
+  explicit Sum(Measures& m) : m_(m) {}
+
+  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
+    if (!has_origin_) origin_ = a;
+    has_origin_ = true;
+    const Vec3 normal = cross(minus(b, a), minus(c, a));
+    m_.area += std::sqrt(dot(normal, normal)) / 2;
+    m_.volume += dot(normal, minus(a, origin_)) / 6;
   }
+
+ private:
+  Measures& m_;
+  bool has_origin_ = false;
+  Vec3 origin_{};
+};
+
+std::size_t count_components(const Surface& surface) {
+  DisjointSets sets(surface.n_faces());
+  for (const auto edge : surface.edges()) {
+    const auto h = surface.halfedge_handle(edge, 0);
+    const auto g = surface.halfedge_handle(edge, 1);
+    if (surface.is_boundary(h) || surface.is_boundary(g)) continue;
+    sets.unite(static_cast<std::uint32_t>(surface.face_handle(h).idx()),
+               static_cast<std::uint32_t>(surface.face_handle(g).idx()));
+  }
+  std::size_t count = 0;
+  for (std::uint32_t f = 0; f < surface.n_faces(); ++f) count += sets.find(f) == f ? 1U : 0U;
+  return count;
 }
 
 }  // namespace
@@ -71,7 +92,32 @@ Measures measure(const Mesh& mesh) {
   result.faces = faces.size();
   result.components = count_components(mesh, faces, edges);
   result.genus = genus(result);
-  measure_area_and_volume(mesh, faces, result);
+  Sum sum(result);
+  for (const std::uint32_t face : faces) {
+    const auto [a, b, c] = mesh.faces[face];
+    sum.add(mesh.points[a], mesh.points[b], mesh.points[c]);
+  }
+  return result;
+}
+
+Measures measure(const Surface& surface) {
+  Measures result;
+  result.vertices = surface.n_vertices();
+  result.edges = surface.n_edges();
+  result.faces = surface.n_faces();
+  result.components = count_components(surface);
+  result.genus = genus(result);
+  Sum sum(result);
+  for (const auto face : surface.faces()) {
+    std::array<Vec3, 3> corners;
+    auto h = surface.halfedge_handle(face);
+    for (Vec3& corner : corners) {
+      const auto& p = surface.point(surface.to_vertex_handle(h));
+      corner = {p[0], p[1], p[2]};
+      h = surface.next_halfedge_handle(h);
+    }
+    sum.add(corners[0], corners[1], corners[2]);
+  }
   return result;
 }
 

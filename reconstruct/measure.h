@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "reconstruct/mesh.h"
+#include "reconstruct/surface.h"
 
 namespace loft {
 
@@ -20,5 +21,8 @@ struct Measures {
 
 /// Cost: O(n log n).
 [[nodiscard]] Measures measure(const Mesh& mesh);
+/// The same, from the surface's own connectivity. Precondition: no deleted elements.
+/// Cost: O(n).
+[[nodiscard]] Measures measure(const Surface& surface);
 
 }  // namespace loft

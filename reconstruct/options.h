@@ -27,6 +27,8 @@ struct Options {
   bool smooth = false;
   /// Only contours with this label; all contours where not set.
   std::optional<std::string> label = {};
+  /// Threads that work at the same time; 0: as many as the machine has. Changes nothing but time.
+  unsigned threads = 0;
 };
 
 }  // namespace loft

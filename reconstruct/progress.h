@@ -10,7 +10,8 @@ enum class Stage { clean, tile, smooth, sew };
 
 /// Called as a reconstruction goes on: the stage and the finished fraction of it, from 0 to 1.
 /// Each stage reports 0 when it begins. Return false to cancel: reconstruct() then throws
-/// Cancelled. May be empty.
+/// Cancelled. May be empty. Called from any of the threads that work, but never twice at once, and
+/// with fractions that never fall.
 using Progress = std::function<bool(Stage stage, double fraction)>;
 
 }  // namespace loft

@@ -4,10 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <mutex>
 #include <optional>
 #include <set>
 #include <string>
 
+#include "reconstruct/parallel.h"
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
 #include "reconstruct/smooth.h"
@@ -18,7 +20,7 @@ namespace loft {
 namespace {
 
 /// All contours at one height.
-struct Layer {
+struct Height {
   double z;
   std::uint32_t slice;  // the first of the input's slices at this height
   std::vector<ContourSource> contours;
@@ -60,13 +62,13 @@ std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
 }
 
 /// The slices by height, those of equal height as one.
-std::vector<Layer> find_layers(std::span<const Slice> slices,
+std::vector<Height> find_layers(std::span<const Slice> slices,
                                const std::optional<std::string>& label,
                                std::vector<Defect>& repairs) {
   std::vector<std::uint32_t> order(slices.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return slices[i].z; });
-  std::vector<Layer> layers;
+  std::vector<Height> layers;
   for (const std::uint32_t s : order) {
     const Slice& slice = slices[s];
     if (layers.empty() || layers.back().z != slice.z) {
@@ -90,7 +92,7 @@ std::vector<Layer> find_layers(std::span<const Slice> slices,
 }
 
 /// Between slices there must be room for heights that are different numbers.
-void check_gaps(std::span<const Layer> layers) {
+void check_gaps(std::span<const Height> layers) {
   constexpr double least_gap = 0x1p-40;  // relative to the height
   std::vector<Defect> found;
   for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
@@ -165,43 +167,58 @@ void report_unlinked(std::span<const Region> regions, std::span<const TileSet> s
                "there. Make the contours equal or more different"});
 }
 
+/// Counts the finished steps of a stage, of whatever thread, and passes them on one at a time.
 class Reporter {
  public:
   Reporter(const Progress& progress, Stage stage, std::size_t steps)
       : progress_(progress), stage_(stage), steps_(steps) {
-    report(0);
+    report();
   }
-  void report(std::size_t done) const {
-    const double fraction =
-        steps_ == 0 ? 1 : static_cast<double>(done) / static_cast<double>(steps_);
-    if (progress_ && !progress_(stage_, fraction)) throw Cancelled();
+  void add_step() {
+    const std::lock_guard lock(mutex_);
+    ++done_;
+    report();
   }
 
  private:
+  void report() const {
+    const double fraction =
+        steps_ == 0 ? 1 : static_cast<double>(done_) / static_cast<double>(steps_);
+    if (progress_ && !progress_(stage_, fraction)) throw Cancelled();
+  }
+
   const Progress& progress_;
   Stage stage_;
   std::size_t steps_;
+  std::size_t done_ = 0;
+  std::mutex mutex_;
 };
 
-std::vector<Region> clean_all(const std::vector<Layer>& layers, Fill fill,
+std::vector<Region> clean_all(const std::vector<Height>& layers, const Options& options,
                               std::vector<Defect>& repairs, const Progress& progress) {
-  const Reporter reporter(progress, Stage::clean, layers.size());
-  std::vector<Region> regions;
-  for (const Layer& layer : layers) {
-    regions.push_back(clean(layer.contours, layer.z, fill, repairs));
-    regions.back().slice = layer.slice;
-    reporter.report(regions.size());
-  }
+  Reporter reporter(progress, Stage::clean, layers.size());
+  std::vector<Region> regions(layers.size());
+  std::vector<std::vector<Defect>> found(layers.size());
+  std::vector<Triangulation> memories(thread_count(options.threads));
+  for_each_index(layers.size(), options.threads, [&](std::size_t i, unsigned worker) {
+    regions[i] =
+        clean(layers[i].contours, layers[i].z, options.fill, found[i], memories[worker]);
+    regions[i].slice = layers[i].slice;
+    reporter.add_step();
+  });
+  for (auto& some : found) std::ranges::move(some, std::back_inserter(repairs));
   return regions;
 }
 
-std::vector<TileSet> tile_all(const std::vector<Region>& regions, const Progress& progress) {
-  const Reporter reporter(progress, Stage::tile, regions.size() - 1);
-  std::vector<TileSet> slabs;
-  for (std::size_t i = 0; i + 1 < regions.size(); ++i) {
-    slabs.push_back(tile(regions[i], regions[i + 1]));
-    reporter.report(slabs.size());
-  }
+std::vector<TileSet> tile_all(const std::vector<Region>& regions, unsigned threads,
+                              const Progress& progress) {
+  Reporter reporter(progress, Stage::tile, regions.size() - 1);
+  std::vector<TileWorkspace> workspaces(thread_count(threads));
+  std::vector<TileSet> slabs(regions.size() - 1);
+  for_each_index(slabs.size(), threads, [&](std::size_t i, unsigned worker) {
+    slabs[i] = tile(regions[i], regions[i + 1], workspaces[worker]);
+    reporter.add_step();
+  });
   return slabs;
 }
 
@@ -213,15 +230,18 @@ Surroundings surroundings(std::span<const SliceShape> shapes, std::size_t slab) 
   return found;
 }
 
-void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
+void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs, unsigned threads,
                 const Progress& progress) {
-  const Reporter reporter(progress, Stage::smooth, slabs.size());
-  const std::vector<SliceShape> shapes(regions.begin(), regions.end());
-  for (std::size_t i = 0; i < slabs.size(); ++i) {
-    slabs[i] =
-        smooth(regions[i], regions[i + 1], surroundings(shapes, i), std::move(slabs[i]));
-    reporter.report(i + 1);
-  }
+  Reporter reporter(progress, Stage::smooth, regions.size() + slabs.size());
+  std::vector<SliceShape> shapes(regions.size());
+  for_each_index(regions.size(), threads, [&](std::size_t i, unsigned) {
+    shapes[i] = SliceShape(regions[i]);
+    reporter.add_step();
+  });
+  for_each_index(slabs.size(), threads, [&](std::size_t i, unsigned) {
+    slabs[i] = smooth(regions[i], regions[i + 1], surroundings(shapes, i), std::move(slabs[i]));
+    reporter.add_step();
+  });
 }
 
 void check_enough(std::span<const Region> regions) {
@@ -248,20 +268,21 @@ void check_enough(std::span<const Region> regions) {
 Reconstruction reconstruct(std::span<const Slice> slices, const Options& options,
                            const Progress& progress) {
   if (auto fatal = find_not_finite(slices); !fatal.empty()) throw InputError(std::move(fatal));
-  Reconstruction result;
-  const auto layers = find_layers(slices, options.label, result.repairs);
+  std::vector<Defect> repairs;
+  const auto layers = find_layers(slices, options.label, repairs);
   check_gaps(layers);
-  check_gaps(layers);
-  auto regions = trim(clean_all(layers, options.fill, result.repairs, progress), result.repairs);
+  auto regions = trim(clean_all(layers, options, repairs, progress), repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
-  auto slabs = tile_all(regions, progress);
-  if (options.smooth) smooth_all(regions, slabs, progress);
-  report_unlinked(regions, slabs, result.repairs);
-  const Reporter sewing(progress, Stage::sew, 1);
-  result.surface = sew(regions, slabs, options.cap);
-  sewing.report(1);
-  std::ranges::stable_sort(result.repairs, {}, &Defect::z);
+  auto slabs = tile_all(regions, options.threads, progress);
+  if (options.smooth) smooth_all(regions, slabs, options.threads, progress);
+  report_unlinked(regions, slabs, repairs);
+  std::ranges::stable_sort(repairs, {}, &Defect::z);
+  Reporter sewing(progress, Stage::sew, 1);
+  // Made in its place: an OpenMesh mesh cannot be moved, only copied.
+  Reconstruction result{sew(regions, std::move(slabs), options.cap, options.threads),
+                        std::move(repairs)};
+  sewing.add_step();
   return result;
 }
 

@@ -50,8 +50,10 @@ constexpr double tightness = 0x1p-49;
 class Cleaning {
  public:
   Cleaning(std::span<const ContourSource> contours, double z, Fill fill,
-           std::vector<Defect>& repairs)
-      : contours_(contours), z_(z), fill_(fill), repairs_(repairs) {}
+           std::vector<Defect>& repairs, Triangulation& memory)
+      : contours_(contours), z_(z), fill_(fill), repairs_(repairs), mesh_(memory) {
+    mesh_.clear();
+  }
 
   Region run() {
     choose_contours();
@@ -336,7 +338,7 @@ class Cleaning {
   Fill fill_;
   std::vector<Defect>& repairs_;
   std::vector<std::uint32_t> chosen_;  // contour of each constraint
-  Triangulation mesh_;
+  Triangulation& mesh_;
   std::vector<Origin> origins_;       // of each vertex
   std::vector<bool> is_inside_;       // of each triangle
   std::vector<std::uint32_t> index_;  // of each vertex, in the region
@@ -378,7 +380,7 @@ std::vector<std::uint32_t> weld(const Region& region) {
 }
 
 /// The loops of a region cleaned once more, as long as that changes anything.
-Region settle(Region region) {
+Region settle(Region region, Triangulation& memory) {
   for (int round = 0; round < most_rounds; ++round) {
     const std::vector<std::uint32_t> target = weld(region);
     std::vector<std::vector<Point>> loops(region.loop_count());
@@ -388,7 +390,7 @@ Region settle(Region region) {
       sources.push_back({loops[i], region.slice, i});
     }
     std::vector<Defect> nothing_new;
-    Region again = Cleaning(sources, region.z, Fill::even_odd, nothing_new).run();
+    Region again = Cleaning(sources, region.z, Fill::even_odd, nothing_new, memory).run();
     for (Origin& origin : again.origins)
       if (origin.kind == VertexKind::contour)
         origin = region.origins[target[region.loop(origin.contour)[origin.point]]];
@@ -403,10 +405,16 @@ Region settle(Region region) {
 }  // namespace
 
 Region clean(std::span<const ContourSource> contours, double z, Fill fill,
-             std::vector<Defect>& repairs) {
-  Cleaning cleaning(contours, z, fill, repairs);
+             std::vector<Defect>& repairs, Triangulation& memory) {
+  Cleaning cleaning(contours, z, fill, repairs, memory);
   Region region = cleaning.run();
-  return cleaning.is_settled() ? region : settle(std::move(region));
+  return cleaning.is_settled() ? region : settle(std::move(region), memory);
+}
+
+Region clean(std::span<const ContourSource> contours, double z, Fill fill,
+             std::vector<Defect>& repairs) {
+  Triangulation memory;
+  return clean(contours, z, fill, repairs, memory);
 }
 
 void insert_loops(const Region& region, cdt::Triangulation& mesh, Point shift) {

@@ -45,6 +45,9 @@ struct ContourSource {
 /// What was found is appended to `repairs`. Precondition: finite coordinates.
 [[nodiscard]] Region clean(std::span<const ContourSource> contours, double z, Fill fill,
                            std::vector<Defect>& repairs);
+/// The same with memory for the CDT that can be used again from slice to slice.
+[[nodiscard]] Region clean(std::span<const ContourSource> contours, double z, Fill fill,
+                           std::vector<Defect>& repairs, cdt::Triangulation& memory);
 
 /// Inserts the loops of a region as constraints, in order: segment i starts at
 /// `loop_vertices[i]`, counted from the first segment that is new. All points moved by `shift`.

@@ -2,182 +2,228 @@
 #include "reconstruct/sew.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "reconstruct/caps.h"
-#include "reconstruct/soup.h"
+#include "reconstruct/parallel.h"
+#include "reconstruct/sewing.h"
 
 namespace loft {
 
 namespace {
 
-/// All vertices and faces: slice, inner vertices of the slab above it, next slice, and so on.
-class Gathering {
- public:
-  Gathering(std::span<const Region> regions, std::span<const TileSet> slabs)
-      : regions_(regions), slabs_(slabs) {}
+/// So many layers are sewn at once: enough for many threads, few enough to take little memory.
+constexpr std::size_t batch_size = 64;
 
-  Soup run(Cap cap) {
-    reserve();
-    for (std::uint32_t i = 0; i < regions_.size(); ++i) {
-      add_slice(regions_[i]);
-      if (i >= slabs_.size()) continue;
-      add_inner(slabs_[i], regions_[i].slice);
-      soup_.slab_slices.push_back(regions_[i].slice);
-    }
-    if (cap == Cap::flat) add_cap(0, FaceKind::bottom_cap);
-    for (std::uint32_t i = 0; i < slabs_.size(); ++i) add_tiles(i);
-    if (cap == Cap::flat)
-      add_cap(static_cast<std::uint32_t>(regions_.size() - 1), FaceKind::top_cap);
-    return std::move(soup_);
+Sewing sew_layers(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
+                  unsigned threads) {
+  const auto count = static_cast<std::uint32_t>(slabs.size());
+  Sewing sewing;
+  std::vector<Layer> batch;
+  if (cap == Cap::flat) batch.push_back(bottom_cap(regions.front()));
+  for (std::uint32_t i = 0; i < count; ++i) {
+    batch.push_back({&regions[i], &regions[i + 1], std::move(slabs[i]), i, regions[i].slice});
+    if (batch.size() == batch_size) sewing.add(std::exchange(batch, {}), threads);
   }
+  if (cap == Cap::flat) batch.push_back(top_cap(regions.back(), count - 1, regions[count - 1].slice));
+  sewing.add(std::move(batch), threads);
+  sewing.finish(threads);
+  return sewing;
+}
 
- private:
-  void reserve() {
-    std::size_t points = 0;
-    std::size_t faces = 0;
-    for (const Region& region : regions_) points += region.points.size();
-    for (const TileSet& slab : slabs_) {
-      points += slab.inner.size();
-      faces += slab.tiles.size();
-    }
-    soup_.points.reserve(points);
-    soup_.origins.reserve(points);
-    soup_.faces.reserve(faces);
-  }
-
-  [[nodiscard]] std::uint32_t point_count() const {
-    return static_cast<std::uint32_t>(soup_.points.size());
-  }
-
-  void add_slice(const Region& region) {
-    slice_starts_.push_back(point_count());
-    for (const cdt::Point p : region.points) soup_.points.push_back({p.x, p.y, region.z});
-    soup_.origins.insert(soup_.origins.end(), region.origins.begin(), region.origins.end());
-  }
-
-  void add_inner(const TileSet& slab, std::uint32_t slice) {
-    inner_starts_.push_back(point_count());
-    for (const InnerVertex& vertex : slab.inner) {
-      soup_.points.push_back(vertex.place);
-      soup_.origins.push_back({vertex.kind, slice, Origin::none, Origin::none});
-    }
-  }
-
-  void add_tiles(std::uint32_t i) {
-    const auto lower = static_cast<std::uint32_t>(regions_[i].points.size());
-    const auto contour = lower + static_cast<std::uint32_t>(regions_[i + 1].points.size());
-    for (const Tile& tile : slabs_[i].tiles) {
-      Soup::Face face{tile.nodes, tile.kind, i};
-      for (std::uint32_t& node : face.corners) {
-        if (node < lower) {
-          node += slice_starts_[i];
-        } else if (node < contour) {
-          node += slice_starts_[i + 1] - lower;
-        } else {
-          node += inner_starts_[i] - contour;
-        }
-      }
-      soup_.faces.push_back(face);
-    }
-  }
-
-  void add_cap(std::uint32_t i, FaceKind kind) {
-    const auto slab = std::min(i, static_cast<std::uint32_t>(slabs_.size() - 1));
-    for (auto [a, b, c] : flat_cap(regions_[i])) {
-      if (kind == FaceKind::bottom_cap) std::swap(a, b);
-      const std::uint32_t start = slice_starts_[i];
-      soup_.faces.push_back({{a + start, b + start, c + start}, kind, slab});
-    }
-  }
-
-  std::span<const Region> regions_;
-  std::span<const TileSet> slabs_;
-  Soup soup_;
-  std::vector<std::uint32_t> slice_starts_;  // the first vertex of each slice
-  std::vector<std::uint32_t> inner_starts_;  // the first inner vertex of each slab
-};
-
-/// Fills the mesh's connectivity directly: mates are known, so that nothing has to be searched for
-/// and nothing can be refused.
+/// Fills the mesh directly: mates are known, so that nothing has to be searched for and nothing
+/// can be refused. Layers are written in parallel, each thread to elements of its own.
 class Assembly {
  public:
-  Assembly(const Soup& soup, const Mates& mates) : soup_(soup), mates_(mates) {}
+  Assembly(const Sewing& sewing, Surface& surface, unsigned threads)
+      : sewing_(sewing), surface_(surface), threads_(threads) {}
 
-  Surface run() {
-    surface_.reserve(soup_.points.size(), mates_.size() / 2 + 1, soup_.faces.size());
-    add_vertices();
-    add_edges();
-    add_faces();
+  void run() {
+    number_cut_faces();
+    const std::vector<std::uint32_t> first_edges = number_edges();
+    surface_.resize(vertex_count(), first_edges.back(), face_count());
+    handles_.resize(3 * face_count());
+    rims_.resize(sewing_.layer_bound() + 1);
+    for_each_layer([this](std::uint32_t layer) { add_vertices(layer); });
+    add_made_vertices();
+    for_each_group([&](std::uint32_t group) { add_edges(group, first_edges[group]); });
+    for_each_group([this](std::uint32_t group) { add_faces(group); });
+    lead_from_vertices();
     close_rims();
-    return std::move(surface_);
   }
 
  private:
-  using Halfedge = Surface::HalfedgeHandle;
+  using Handle = Surface::HalfedgeHandle;
 
-  void add_vertices() {
-    for (std::size_t v = 0; v < soup_.points.size(); ++v) {
-      const Vec3& p = soup_.points[v];
-      surface_.data(surface_.add_vertex({p[0], p[1], p[2]})).origin = soup_.origins[v];
+  [[nodiscard]] std::size_t vertex_count() const {
+    return sewing_.plain_vertex_count() + sewing_.doubled().size() + sewing_.midpoints().size();
+  }
+  [[nodiscard]] std::size_t face_count() const {
+    return sewing_.plain_face_count() + sewing_.cut_faces().size();
+  }
+
+  template <class Body>
+  void for_each_layer(Body body) const {
+    for_each_index(sewing_.layer_bound(), threads_,
+                   [&](std::size_t i, unsigned) { body(static_cast<std::uint32_t>(i)); });
+  }
+  /// Faces by groups: those that each layer came with, then all that were cut off.
+  template <class Body>
+  void for_each_group(Body body) const {
+    for_each_layer(body);
+    body(sewing_.layer_bound());
+  }
+  /// Calls visit(half-edge, its number) for a group, in the order of the numbers.
+  template <class Visit>
+  void for_each_half_edge(std::uint32_t group, Visit visit) const {
+    if (group < sewing_.layer_bound()) {
+      const auto first = static_cast<std::uint32_t>(3 * sewing_.first_face(group));
+      for (std::uint32_t h = 0; h < 3 * sewing_.face_count(group); ++h)
+        visit(HalfEdge{group, h}, first + h);
+      return;
     }
+    auto number = static_cast<std::uint32_t>(3 * sewing_.plain_face_count());
+    for (const HalfEdge face : sewing_.cut_faces())
+      for (std::uint32_t i = 0; i < 3; ++i)
+        visit(HalfEdge{face.layer, 3 * face.index + i}, number++);
   }
 
-  [[nodiscard]] static Surface::VertexHandle vertex(std::uint32_t v) {
-    return Surface::VertexHandle(static_cast<int>(v));
+  void number_cut_faces() {
+    cut_numbers_.resize(sewing_.layer_bound());
+    auto number = static_cast<std::uint32_t>(sewing_.plain_face_count());
+    for (const HalfEdge face : sewing_.cut_faces()) cut_numbers_[face.layer].push_back(number++);
   }
 
-  void add_edges() {
-    halfedges_.resize(mates_.size());
-    for (std::uint32_t h = 0; h < mates_.size(); ++h) {
-      if (mates_[h] < h) continue;
-      const auto& corners = soup_.faces[h / 3].corners;
-      halfedges_[h] = surface_.new_edge(vertex(corners[h % 3]), vertex(corners[(h + 1) % 3]));
-      const Halfedge opposite = surface_.opposite_halfedge_handle(halfedges_[h]);
-      if (mates_[h] == no_mate) {
+  [[nodiscard]] std::uint32_t number(HalfEdge h) const {
+    const std::uint32_t own = sewing_.face_count(h.layer);
+    const std::uint32_t face = h.face() < own
+                                   ? static_cast<std::uint32_t>(sewing_.first_face(h.layer)) + h.face()
+                                   : cut_numbers_[h.layer][h.face() - own];
+    return 3 * face + h.index % 3;
+  }
+
+  [[nodiscard]] Surface::VertexHandle vertex(HalfEdge corner) const {
+    return Surface::VertexHandle(static_cast<int>(sewing_.final_number(sewing_.vertex(corner))));
+  }
+
+  /// Of two half-edges the first one makes the edge.
+  [[nodiscard]] static bool makes_edge(HalfEdge h, HalfEdge mate) {
+    return mate.is_none() || h < mate;
+  }
+
+  /// The first edge of each group, and their number.
+  [[nodiscard]] std::vector<std::uint32_t> number_edges() const {
+    std::vector<std::uint32_t> firsts(sewing_.layer_bound() + 2);
+    for_each_group([&](std::uint32_t group) {
+      std::uint32_t count = 0;
+      for_each_half_edge(group, [&](HalfEdge h, std::uint32_t) {
+        if (makes_edge(h, sewing_.mate(h))) ++count;
+      });
+      firsts[group + 1] = count;
+    });
+    for (std::size_t i = 1; i < firsts.size(); ++i) firsts[i] += firsts[i - 1];
+    return firsts;
+  }
+
+  void set_vertex(std::uint32_t number, const Vec3& p, const Origin& origin) {
+    const Surface::VertexHandle v(static_cast<int>(number));
+    surface_.set_point(v, {p[0], p[1], p[2]});
+    surface_.data(v).origin = origin;
+  }
+
+  void add_slice(const Region& region, std::uint32_t first) {
+    for (std::uint32_t i = 0; i < region.points.size(); ++i)
+      set_vertex(first + i, {region.points[i].x, region.points[i].y, region.z}, region.origins[i]);
+  }
+
+  /// Those of the slice below the layer and inside it; above the last layer also those there.
+  void add_vertices(std::uint32_t number) {
+    const Layer& layer = sewing_.layer(number);
+    add_slice(*layer.lower, sewing_.first_vertex(number));
+    std::uint32_t next = sewing_.first_inner(number);
+    for (const InnerVertex& inner : layer.tiles.inner)
+      set_vertex(next++, inner.place, {inner.kind, layer.slice, Origin::none, Origin::none});
+    if (number + 1 == sewing_.layer_bound()) add_slice(*layer.upper, next);
+  }
+
+  void add_made_vertices() {
+    std::uint32_t next = sewing_.plain_vertex_count();
+    for (const auto vertices : {sewing_.doubled(), sewing_.midpoints()})
+      for (const SewnVertex& vertex : vertices) set_vertex(next++, vertex.place, vertex.origin);
+  }
+
+  void add_edges(std::uint32_t group, std::uint32_t first_edge) {
+    auto next = static_cast<int>(2 * first_edge);
+    for_each_half_edge(group, [&](HalfEdge h, std::uint32_t number_of_h) {
+      const HalfEdge mate = sewing_.mate(h);
+      if (!makes_edge(h, mate)) return;
+      const Handle handle(next);
+      const Handle opposite(next + 1);
+      next += 2;
+      surface_.set_vertex_handle(handle, vertex(Sewing::next(h)));
+      surface_.set_vertex_handle(opposite, vertex(h));
+      handles_[number_of_h] = handle;
+      if (mate.is_none()) {
         surface_.set_boundary(opposite);
-        rims_.push_back(opposite);
+        rims_[group].push_back(opposite);
       } else {
-        halfedges_[mates_[h]] = opposite;
+        handles_[number(mate)] = opposite;
       }
-    }
+    });
   }
 
-  void add_faces() {
-    for (std::uint32_t f = 0; f < soup_.faces.size(); ++f) {
-      const auto face = surface_.new_face();
-      surface_.data(face).kind = soup_.faces[f].kind;
-      surface_.data(face).slab = soup_.faces[f].slab;
-      surface_.set_halfedge_handle(face, halfedges_[3 * f]);
-      for (std::uint32_t i = 0; i < 3; ++i) {
-        const Halfedge h = halfedges_[3 * f + i];
-        surface_.set_face_handle(h, face);
-        surface_.set_next_halfedge_handle(h, halfedges_[3 * f + (i + 1) % 3]);
-        surface_.set_halfedge_handle(surface_.from_vertex_handle(h), h);
-      }
-    }
+  void add_faces(std::uint32_t group) {
+    for_each_half_edge(group, [&](HalfEdge h, std::uint32_t number_of_h) {
+      const Surface::FaceHandle face(static_cast<int>(number_of_h / 3));
+      const Handle handle = handles_[number_of_h];
+      surface_.set_face_handle(handle, face);
+      surface_.set_next_halfedge_handle(
+          handle, handles_[number_of_h % 3 == 2 ? number_of_h - 2 : number_of_h + 1]);
+      if (number_of_h % 3 != 0) return;
+      const Layer& layer = sewing_.layer(h.layer);
+      surface_.set_halfedge_handle(face, handle);
+      surface_.data(face).kind = layer.tiles.tiles[h.face()].kind;
+      surface_.data(face).slab = layer.slab;
+    });
+  }
+
+  /// A vertex leads to the last of the half-edges from it.
+  void lead_from_vertices() {
+    for (const Handle handle : handles_)
+      surface_.set_halfedge_handle(surface_.from_vertex_handle(handle), handle);
   }
 
   /// An open surface: each vertex of a rim has one half-edge of the rim leaving it.
   void close_rims() {
-    for (const Halfedge h : rims_) surface_.set_halfedge_handle(surface_.from_vertex_handle(h), h);
-    for (const Halfedge h : rims_)
-      surface_.set_next_halfedge_handle(h, surface_.halfedge_handle(surface_.to_vertex_handle(h)));
+    for (const auto& rims : rims_)
+      for (const Handle h : rims) surface_.set_halfedge_handle(surface_.from_vertex_handle(h), h);
+    for (const auto& rims : rims_)
+      for (const Handle h : rims)
+        surface_.set_next_halfedge_handle(h,
+                                          surface_.halfedge_handle(surface_.to_vertex_handle(h)));
   }
 
-  const Soup& soup_;
-  const Mates& mates_;
-  Surface surface_;
-  std::vector<Halfedge> halfedges_;  // of each half-edge of the soup
-  std::vector<Halfedge> rims_;
+  const Sewing& sewing_;
+  Surface& surface_;
+  unsigned threads_;
+  std::vector<std::vector<std::uint32_t>> cut_numbers_;  // of each layer's cut faces
+  std::vector<Handle> handles_;                          // of each half-edge, by its number
+  std::vector<std::vector<Handle>> rims_;                // of each group
 };
 
 }  // namespace
 
+Surface sew(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
+            unsigned threads) {
+  const Sewing sewing = sew_layers(regions, std::move(slabs), cap, threads);
+  Surface surface;  // filled in place: moving one would copy it
+  Assembly(sewing, surface, threads).run();
+  return surface;
+}
+
 Surface sew(std::span<const Region> regions, std::span<const TileSet> slabs, Cap cap) {
-  Soup soup = Gathering(regions, slabs).run(cap);
-  const Mates mates = separate_touching(soup);
-  return Assembly(soup, mates).run();
+  return sew(regions, std::vector<TileSet>(slabs.begin(), slabs.end()), cap);
 }
 
 }  // namespace loft

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
 #include "reconstruct/options.h"
 #include "reconstruct/region.h"
@@ -12,7 +13,10 @@ namespace loft {
 
 /// Sews the tiles of a stack into one surface: `slabs[i]` lies between `regions[i]` and
 /// `regions[i + 1]`. With Cap::flat the first and the last region close it.
-/// Cost: O(n).
+/// The result does not depend on the number of threads; 0 are all there are.
+/// Precondition: at least one slab. Cost: O(n).
+[[nodiscard]] Surface sew(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
+                          unsigned threads = 1);
 [[nodiscard]] Surface sew(std::span<const Region> regions, std::span<const TileSet> slabs, Cap cap);
 
 }  // namespace loft

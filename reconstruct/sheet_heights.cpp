@@ -25,14 +25,14 @@ constexpr double least_share = 1e-3;
 SheetHeights::SheetHeights(const Slab& slab)
     : slab_(slab), sheet_of_(slab.overlay().triangle_bound(), Origin::none) {}
 
-double SheetHeights::depth(EdgeId e, Point p) { return sheet(e).depth(p); }
+double SheetHeights::depth(EdgeId e, Point p) { return measured(e).depth(p); }
 
 double SheetHeights::height(EdgeId e, Point p) {
-  const Sheet& sheet = this->sheet(e);
+  const Sheet& sheet = measured(e);
   double share = 0;
-  if (sheet.upper.is_empty()) {
+  if (!sheet.touches_upper) {
     share = end_share(sheet, p);
-  } else if (sheet.lower.is_empty()) {
+  } else if (!sheet.touches_lower) {
     share = 1 - end_share(sheet, p);
   } else {
     const double lower = std::pow(sheet.lower.distance(p), steepness);
@@ -50,10 +50,16 @@ double SheetHeights::end_share(const Sheet& sheet, Point p) const {
   return top * (1 - inwards * inwards);
 }
 
-const SheetHeights::Sheet& SheetHeights::sheet(EdgeId e) {
+SheetHeights::Sheet& SheetHeights::sheet_at(EdgeId e) {
   const TriangleId t = Triangulation::triangle(e);
   if (sheet_of_[t.index()] == Origin::none) explore(t);
   return sheets_[sheet_of_[t.index()]];
+}
+
+const SheetHeights::Sheet& SheetHeights::measured(EdgeId e) {
+  Sheet& sheet = sheet_at(e);
+  if (!sheet.is_measured) measure(sheet);
+  return sheet;
 }
 
 Point SheetHeights::centroid(TriangleId t) const {
@@ -65,16 +71,40 @@ Point SheetHeights::centroid(TriangleId t) const {
   return {a.x + ((b.x - a.x) + (c.x - a.x)) / 3, a.y + ((b.y - a.y) + (c.y - a.y)) / 3};
 }
 
+/// Finds the triangles of a sheet, and which slices it touches.
 void SheetHeights::explore(TriangleId start) {
   const Triangulation& mesh = slab_.overlay();
   const auto id = static_cast<std::uint32_t>(sheets_.size());
+  Sheet sheet{.first = triangles_.size()};
+  front_.assign(1, start);
+  sheet_of_[start.index()] = id;
+  while (!front_.empty()) {
+    const TriangleId t = front_.back();
+    front_.pop_back();
+    triangles_.push_back(t);
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(t, corner);
+      if (mesh.is_constrained(e)) {
+        sheet.touches_lower = sheet.touches_lower || slab_.is_contour(e, Level::lower);
+        sheet.touches_upper = sheet.touches_upper || slab_.is_contour(e, Level::upper);
+        continue;
+      }
+      const TriangleId beyond = Triangulation::triangle(mesh.twin(e));
+      if (sheet_of_[beyond.index()] != Origin::none) continue;
+      sheet_of_[beyond.index()] = id;
+      front_.push_back(beyond);
+    }
+  }
+  sheet.last = triangles_.size();
+  sheets_.push_back(std::move(sheet));
+}
+
+void SheetHeights::measure(Sheet& sheet) const {
+  const Triangulation& mesh = slab_.overlay();
   std::vector<NearestSegment::Segment> bounds[2];
   std::vector<Point> middles;
-  std::vector<TriangleId> front{start};
-  sheet_of_[start.index()] = id;
-  while (!front.empty()) {
-    const TriangleId t = front.back();
-    front.pop_back();
+  for (std::size_t i = sheet.first; i < sheet.last; ++i) {
+    const TriangleId t = triangles_[i];
     middles.push_back(centroid(t));
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(t, corner);
@@ -86,16 +116,13 @@ void SheetHeights::explore(TriangleId start) {
         continue;
       }
       middles.push_back({a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2});
-      const TriangleId beyond = Triangulation::triangle(mesh.twin(e));
-      if (sheet_of_[beyond.index()] != Origin::none) continue;
-      sheet_of_[beyond.index()] = id;
-      front.push_back(beyond);
     }
   }
-  Sheet sheet{NearestSegment(std::move(bounds[0])), NearestSegment(std::move(bounds[1])), 0};
+  sheet.lower = NearestSegment(std::move(bounds[0]));
+  sheet.upper = NearestSegment(std::move(bounds[1]));
   if (sheet.is_end())
     for (const Point p : middles) sheet.radius = std::max(sheet.radius, sheet.depth(p));
-  sheets_.push_back(std::move(sheet));
+  sheet.is_measured = true;
 }
 
 }  // namespace loft

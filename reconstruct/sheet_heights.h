@@ -12,13 +12,13 @@ namespace loft {
 
 /// Where the surface is over the inside of a slab's sheets, by the distances to the contours that
 /// bound them (design, section 3, step 3). Looks at the slab's triangles as they are when asked
-/// first; make a new one after splits.
+/// first; make a new one after splits. Distances are prepared only for the sheets asked about.
 class SheetHeights {
  public:
   explicit SheetHeights(const Slab& slab);
 
   /// Whether the sheet left of e touches the contours of one slice only: something ends there.
-  [[nodiscard]] bool is_end(cdt::EdgeId e) { return sheet(e).is_end(); }
+  [[nodiscard]] bool is_end(cdt::EdgeId e) { return sheet_at(e).is_end(); }
   /// How far a point in the sheet left of e is from its nearest contour.
   [[nodiscard]] double depth(cdt::EdgeId e, cdt::Point p);
   /// The height of the surface over a point in the sheet left of e, strictly between the slices.
@@ -35,23 +35,32 @@ class SheetHeights {
 
  private:
   struct Sheet {
+    std::size_t first = 0;  // its triangles, in triangles_
+    std::size_t last = 0;
+    bool touches_lower = false;
+    bool touches_upper = false;
+    bool is_measured = false;  // what follows is known
     NearestSegment lower;
     NearestSegment upper;
     double radius = 0;  // of an end: the largest depth of the middle of an edge or triangle
 
-    [[nodiscard]] bool is_end() const { return lower.is_empty() || upper.is_empty(); }
+    [[nodiscard]] bool is_end() const { return !touches_lower || !touches_upper; }
     [[nodiscard]] double depth(cdt::Point p) const {
       return std::min(lower.distance(p), upper.distance(p));
     }
   };
 
-  const Sheet& sheet(cdt::EdgeId e);
+  Sheet& sheet_at(cdt::EdgeId e);
+  const Sheet& measured(cdt::EdgeId e);
   void explore(cdt::TriangleId start);
+  void measure(Sheet& sheet) const;
   [[nodiscard]] cdt::Point centroid(cdt::TriangleId t) const;
   [[nodiscard]] double end_share(const Sheet& sheet, cdt::Point p) const;
 
   const Slab& slab_;
   std::vector<Sheet> sheets_;
+  std::vector<cdt::TriangleId> triangles_;  // sheet by sheet
+  std::vector<cdt::TriangleId> front_;
   std::vector<std::uint32_t> sheet_of_;  // of each triangle; Origin::none where not yet explored
 };
 

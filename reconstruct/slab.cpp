@@ -3,14 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
 
 namespace loft {
 
-Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift)
-    : lower_(lower), upper_(upper), shift_(shift) {
+Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift, cdt::Triangulation memory)
+    : lower_(lower), upper_(upper), shift_(shift), overlay_(std::move(memory)) {
+  overlay_.clear();
   overlay_.reserve(lower.points.size() + upper.points.size());
   insert_loops(lower, overlay_);
   insert_loops(upper, overlay_, shift);
@@ -46,25 +48,31 @@ bool Slab::is_exact() const {
 }
 
 bool Slab::is_tight(double height) const {
-  const auto is_crossing = [this](cdt::VertexId v) {
-    return v != cdt::Triangulation::infinite && !is_vertex(v, Level::lower) &&
-           !is_vertex(v, Level::upper);
-  };
-  for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
-    const cdt::EdgeId e(i);
-    if (!overlay_.is_triangle(cdt::Triangulation::triangle(e))) continue;
-    if (!is_crossing(overlay_.from(e)) || overlay_.is_infinite(cdt::Triangulation::triangle(e)))
+  for (std::uint32_t i = 1; i < overlay_.vertex_bound(); ++i) {
+    const cdt::VertexId v(i);
+    if (is_vertex(v, Level::lower) || is_vertex(v, Level::upper) || !overlay_.is_vertex(v))
       continue;
-    const cdt::Point a = overlay_.point(overlay_.from(e));
-    const cdt::Point b = overlay_.point(overlay_.to(e));
-    const cdt::Point c = overlay_.point(overlay_.apex(e));
-    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-    const double longest =
-        std::max({std::hypot(b.x - a.x, b.y - a.y), std::hypot(c.x - b.x, c.y - b.y),
-                  std::hypot(a.x - c.x, a.y - c.y)});
-    if (area < height * longest) return true;
+    const cdt::EdgeId first = overlay_.edge(v);
+    cdt::EdgeId e = first;
+    do {
+      if (!overlay_.is_infinite(cdt::Triangulation::triangle(e)) && is_lower(e, height))
+        return true;
+      e = overlay_.rotated(e);
+    } while (e != first);
   }
   return false;
+}
+
+/// Whether the triangle left of an edge is lower than `height`.
+bool Slab::is_lower(cdt::EdgeId e, double height) const {
+  const cdt::Point a = overlay_.point(overlay_.from(e));
+  const cdt::Point b = overlay_.point(overlay_.to(e));
+  const cdt::Point c = overlay_.point(overlay_.apex(e));
+  const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  const double longest =
+      std::max({std::hypot(b.x - a.x, b.y - a.y), std::hypot(c.x - b.x, c.y - b.y),
+                std::hypot(a.x - c.x, a.y - c.y)});
+  return area < height * longest;
 }
 
 void Slab::note_vertices(Level level) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "cdt/triangulation.h"
@@ -26,8 +27,10 @@ enum class Level : std::uint8_t { lower, upper };
 class Slab {
  public:
   /// Keeps references to the regions. In the overlay the upper region is moved by `shift`: a shear
-  /// of the slab, which place() undoes. Cost: that of the CDT.
-  Slab(const Region& lower, const Region& upper, cdt::Point shift = {});
+  /// of the slab, which place() undoes. `memory` is cleared and used for the overlay.
+  /// Cost: that of the CDT.
+  Slab(const Region& lower, const Region& upper, cdt::Point shift = {},
+       cdt::Triangulation memory = {});
 
   [[nodiscard]] const Region& lower() const { return lower_; }
   [[nodiscard]] const Region& upper() const { return upper_; }
@@ -80,9 +83,12 @@ class Slab {
   std::optional<cdt::VertexId> split(cdt::TriangleId t, cdt::Point point);
   /// Classifies the triangles anew.
   void refresh();
+  /// Hands the overlay out, to be the memory of another one. The slab has none from then on.
+  [[nodiscard]] cdt::Triangulation release() { return std::move(overlay_); }
 
  private:
   void note_vertices(Level level);
+  [[nodiscard]] bool is_lower(cdt::EdgeId e, double height) const;
 
   const Region& lower_;
   const Region& upper_;

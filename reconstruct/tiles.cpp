@@ -25,7 +25,8 @@ using cdt::VertexId;
 /// Makes the sheets and walls of a lifted slab.
 class Tiling {
  public:
-  Tiling(const Slab& slab, const Lift& lift) : slab_(slab), mesh_(slab.overlay()), lift_(lift) {}
+  Tiling(const Slab& slab, const Lift& lift, cdt::Triangulation& wall)
+      : slab_(slab), mesh_(slab.overlay()), lift_(lift), wall_(wall) {}
 
   TileSet run() {
     tiles_.inner = lift_.inner();
@@ -167,7 +168,7 @@ class Tiling {
   std::vector<std::uint32_t> roof_;
   std::vector<std::uint32_t> polygon_;
   std::vector<Point> flat_;
-  Triangulation wall_;
+  Triangulation& wall_;
   std::vector<std::uint32_t> corner_;
 };
 
@@ -209,12 +210,12 @@ bool meet(const Region& lower, const Region& upper, const TileSet& tiles) {
 }
 
 /// Both regions end half way: nothing of one slice is near anything of the other.
-TileSet tile_apart(const Region& lower, const Region& upper) {
+TileSet tile_apart(const Region& lower, const Region& upper, TileWorkspace& workspace) {
   Region nothing;
   nothing.z = lower.z + (upper.z - lower.z) / 2;
   nothing.loop_starts = {0};
-  TileSet tiles = tile(lower, nothing);
-  TileSet above = tile(nothing, upper);
+  TileSet tiles = tile(lower, nothing, workspace);
+  TileSet above = tile(nothing, upper, workspace);
   const auto lower_count = static_cast<std::uint32_t>(lower.points.size());
   const auto upper_count = static_cast<std::uint32_t>(upper.points.size());
   for (Tile& tile : tiles.tiles)
@@ -238,23 +239,31 @@ constexpr int most_shears = 12;
 /// Where contours of both slices meet within rounding of each other, as three lines through one
 /// point may, the overlay can't be exact. Then the slab is sheared a little before it is tiled, in
 /// no special direction, and back again: a shear keeps tiles valid, and nothing meets by chance.
-TileSet tile(const Region& lower, const Region& upper) {
+TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace) {
   const Scale lengths = scale(lower, upper);
   const bool is_end = lower.is_empty() || upper.is_empty();  // nothing that could coincide
   for (int attempt = 0; attempt < most_shears; ++attempt) {
     const double turn = 2.399963 * attempt;  // the golden angle
     const double step = attempt * lengths.shear;
-    Slab slab(lower, upper, {step * std::cos(turn), step * std::sin(turn)});
+    Slab slab(lower, upper, {step * std::cos(turn), step * std::sin(turn)},
+              std::move(workspace.overlay));
     if (!is_end && !slab.is_exact()) continue;
     const Lift lift(slab);
-    Tiling tiling(slab, lift);
+    Tiling tiling(slab, lift, workspace.wall);
     TileSet tiles = tiling.run();
+    const bool is_doubtful =
+        !is_end && (attempt > 0 || tiling.is_forced() || slab.is_tight(lengths.tight));
+    workspace.overlay = slab.release();
     if (is_end) return tiles;
-    const bool is_doubtful = attempt > 0 || tiling.is_forced() || slab.is_tight(lengths.tight);
     collapse_crossings(lower, upper, tiles);
     if (!is_doubtful || !meet(lower, upper, tiles)) return tiles;
   }
-  return tile_apart(lower, upper);
+  return tile_apart(lower, upper, workspace);
+}
+
+TileSet tile(const Region& lower, const Region& upper) {
+  TileWorkspace workspace;
+  return tile(lower, upper, workspace);
 }
 
 }  // namespace loft

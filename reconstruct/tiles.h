@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "cdt/triangulation.h"
 #include "reconstruct/lift.h"
 #include "reconstruct/mesh.h"
 #include "reconstruct/origin.h"
@@ -41,5 +42,14 @@ struct TileSet {
 /// edge of exactly one tile, unsplit; so slabs fit together whatever is on the other side.
 /// Cost: that of the CDT of both slices.
 [[nodiscard]] TileSet tile(const Region& lower, const Region& upper);
+
+/// Memory that tile() uses again from slab to slab. Not for several threads at once.
+struct TileWorkspace {
+  cdt::Triangulation overlay;
+  cdt::Triangulation wall;
+};
+
+/// The same tiles, without new memory for their triangulations.
+[[nodiscard]] TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace);
 
 }  // namespace loft

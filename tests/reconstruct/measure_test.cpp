@@ -17,7 +17,7 @@ using shapes::operator+;
 using shapes::torus;
 
 TEST(Measure, OfNothingIsNothing) {
-  const Measures m = measure({});
+  const Measures m = measure(Mesh{});
   EXPECT_EQ(m.vertices + m.edges + m.faces + m.components, 0U);
   EXPECT_EQ(m.genus, 0);
   EXPECT_EQ(m.area, 0);

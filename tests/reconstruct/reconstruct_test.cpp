@@ -178,6 +178,21 @@ TEST(Reconstruct, AnEmptySliceInterruptsTheShape) {
   for (const auto v : surface.vertices()) EXPECT_NE(surface.point(v)[2], 2);
 }
 
+TEST(Reconstruct, ASurfaceMeasuresWhatItsMeshDoes) {
+  for (const Cap cap : {Cap::flat, Cap::open}) {
+    const Surface surface = reconstruct(stacks::Torus::slices(20, 20), {.cap = cap}).surface;
+    const Measures of_surface = measure(surface);
+    const Measures of_mesh = measure(to_mesh(surface));
+    EXPECT_EQ(of_surface.vertices, of_mesh.vertices);
+    EXPECT_EQ(of_surface.edges, of_mesh.edges);
+    EXPECT_EQ(of_surface.faces, of_mesh.faces);
+    EXPECT_EQ(of_surface.components, of_mesh.components);
+    EXPECT_EQ(of_surface.genus, of_mesh.genus);
+    EXPECT_EQ(of_surface.area, of_mesh.area);
+    EXPECT_EQ(of_surface.volume, of_mesh.volume);
+  }
+}
+
 TEST(Reconstruct, CapsAreFlatRoundOrMissing) {
   const auto slices = stacks::sphere(10, 40);
   const Surface flat = reconstruct(slices).surface;
