@@ -63,8 +63,8 @@ std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
 
 /// The slices by height, those of equal height as one.
 std::vector<Height> find_layers(std::span<const Slice> slices,
-                               const std::optional<std::string>& label,
-                               std::vector<Defect>& repairs) {
+                                const std::optional<std::string>& label,
+                                std::vector<Defect>& repairs) {
   std::vector<std::uint32_t> order(slices.size());
   for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
   std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return slices[i].z; });
@@ -201,8 +201,7 @@ std::vector<Region> clean_all(const std::vector<Height>& layers, const Options& 
   std::vector<std::vector<Defect>> found(layers.size());
   std::vector<Triangulation> memories(thread_count(options.threads));
   for_each_index(layers.size(), options.threads, [&](std::size_t i, unsigned worker) {
-    regions[i] =
-        clean(layers[i].contours, layers[i].z, options.fill, found[i], memories[worker]);
+    regions[i] = clean(layers[i].contours, layers[i].z, options.fill, found[i], memories[worker]);
     regions[i].slice = layers[i].slice;
     reporter.add_step();
   });

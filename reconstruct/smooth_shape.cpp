@@ -92,8 +92,7 @@ Sample SmoothPassage::at(const Vec3& p) const {
   for (std::size_t i = 0; i < 4; ++i) {
     if (!has(i)) continue;
     const double share = (z(i) - p[2]) / gap;
-    const auto found =
-        slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y});
+    const auto found = slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y});
     distances[i] = found.distance;
     directions[i] = found.outward;
   }
@@ -110,10 +109,11 @@ Sample SmoothPassage::at(const Vec3& p) const {
   const double lower_rise = u * (1 - 3 * t);
   const double upper_rise = t * (3 * t - 2);
 
-  Sample sample{from_lower * distances[1] + from_upper * distances[2] +
-                  lower_tangent * lower.slope + upper_tangent * upper.slope,
-              {0, 0, rise * (distances[2] - distances[1]) + lower_rise * lower.slope +
-                         upper_rise * upper.slope}};
+  Sample sample{
+      from_lower * distances[1] + from_upper * distances[2] + lower_tangent * lower.slope +
+          upper_tangent * upper.slope,
+      {0, 0,
+       rise * (distances[2] - distances[1]) + lower_rise * lower.slope + upper_rise * upper.slope}};
   const Weights base{0, from_lower, from_upper, 0};
   for (std::size_t i = 0; i < 4; ++i) {
     const double weight =
@@ -150,8 +150,7 @@ Sample SmoothEnd::at(const Vec3& p) const {
   const double root = std::sqrt(trend_ * trend_ + 4 * squared);
   const double height = scale_ * (trend_ + root) / 2;
   const double slope = scale_ * 2 * from_axis / root * (distance < 0 ? 1 : -1);
-  return {upwards_ * (p[2] - slice_->z) - height,
-          {slope * outward.x, slope * outward.y, upwards_}};
+  return {upwards_ * (p[2] - slice_->z) - height, {slope * outward.x, slope * outward.y, upwards_}};
 }
 
 }  // namespace loft

@@ -38,7 +38,8 @@ struct Sample {
 /// disregards a slice in which there is nothing near. Reads one slice on either side of the slab.
 class SmoothPassage {
  public:
-  /// The slab is sheared: what is at p in the lower slice is expected at p + shift in the upper one.
+  /// The slab is sheared: what is at p in the lower slice is expected at p + shift in the upper
+  /// one.
   explicit SmoothPassage(const Surroundings& slices, cdt::Point shift = {});
 
   /// Cost: that of a query of each slice. The gradient is approximate: it takes the tangents for
