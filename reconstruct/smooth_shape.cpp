@@ -21,11 +21,16 @@ constexpr double end_turn = 0.75;
 /// No tangent is flatter than that, in radians.
 constexpr double steepest = 1.5;
 
-/// Heights of ends as shares of the slab. What to expect where there is no trend is what ends
-/// without --smooth have (see SheetHeights).
-constexpr double lowest_end = 0.1;
-constexpr double expected_end = 0.7;
-constexpr double highest_end = 0.75;
+/// Bounds of the heights of ends, as shares of the slab: where the slice before tells a trend;
+/// where it tells that the part is new (see SheetHeights for the reason); at the end of the stack,
+/// where nothing is known.
+struct Bounds {
+  double lowest;
+  double highest;
+};
+constexpr Bounds with_trend{0.1, 0.75};
+constexpr Bounds single{0.7, 0.75};
+constexpr Bounds unknown{0.5, 0.5};
 
 /// From one slice to the next at one place: how the distance changes with z.
 struct Chord {
@@ -129,18 +134,18 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
     : slice_(slices[slice]), upwards_(slice == 1 ? 1 : -1), depth_(depth), trend_(0) {
   const double height = slices[2]->z - slices[1]->z;
   const SliceShape* before = slices[slice == 1 ? 0 : 3];
-  double lowest = expected_end;
+  Bounds bounds = before == nullptr ? unknown : single;
   if (before != nullptr && !before->distance.is_empty()) {
     const double gap = std::abs(slice_->z - before->z);
     const bool is_solid = slice_->distance.at(middle).distance < 0;
     const double there = before->distance.at(middle).distance * (is_solid ? -1 : 1);
     if (there > 0) {
       trend_ = (depth * depth - there * there - gap * gap) / gap;
-      lowest = lowest_end;
+      bounds = with_trend;
     }
   }
   const double top = (trend_ + std::hypot(trend_, 2 * depth)) / 2;
-  scale_ = std::clamp(top, lowest * height, highest_end * height) / top;
+  scale_ = std::clamp(top, bounds.lowest * height, bounds.highest * height) / top;
 }
 
 Sample SmoothEnd::at(const Vec3& p) const {
