@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -123,6 +124,8 @@ void Sewing::add(std::vector<Layer> layers, unsigned threads) {
 
 void Sewing::finish(unsigned threads) {
   settle(layer_bound() + 1, threads);
+  split_double_edges(top_crowds_);
+  final_bound_ = layer_bound();
 }
 
 /// Numbers the vertices and faces of a new layer.
@@ -144,7 +147,8 @@ void Sewing::number(State& state) {
     throw Error("more vertices than can be numbered");
 }
 
-/// Joins the layers to one another below `bound`, and makes final what is below the last of them.
+/// Joins layers below `bound` to those under them. Then it is known of all but the last one which
+/// vertices are to be doubled, and where double edges are left.
 void Sewing::settle(std::uint32_t bound, unsigned threads) {
   const std::uint32_t first = joined_bound_;
   std::vector<Found> found(bound - first);
@@ -153,13 +157,14 @@ void Sewing::settle(std::uint32_t bound, unsigned threads) {
     pair_at(layer, found[i]);
     find_fans(layer, found[i]);
   });
-  for (Found& some : found) {
-    for (Fan& fan : some.fans) at(fan.front().layer).fans.push_back(std::move(fan));
-    for (Crowd& crowd : some.crowds)
-      at(crowd.half_edges.front().layer).crowds.push_back(std::move(crowd));
+  for (std::uint32_t i = 0; i < found.size(); ++i) {
+    for (Fan& fan : found[i].fans) at(fan.front().layer).fans.push_back(std::move(fan));
+    auto& crowds = has(first + i) ? at(first + i).crowds : top_crowds_;
+    std::ranges::move(found[i].crowds, std::back_inserter(crowds));
   }
   joined_bound_ = bound;
-  for (; final_bound_ + 1 < bound; ++final_bound_) finalise(final_bound_);
+  for (; settled_bound_ + 1 < bound; ++settled_bound_) separate(settled_bound_);
+  if (settled_bound_ > 0) final_bound_ = settled_bound_ - 1;
 }
 
 void Sewing::drop_below(std::uint32_t layer) {
@@ -233,7 +238,7 @@ void Sewing::pair_at(std::uint32_t layer, Found& found) {
   std::vector<Ended> all;
   const auto gather = [&](std::uint32_t from, std::span<const std::uint32_t> rim) {
     for (const std::uint32_t index : rim) {
-      const HalfEdge h = latest({from, index});
+      const HalfEdge h{from, index};
       const auto [low, high] = std::minmax({vertex(h), vertex(next(h))});
       all.push_back({low, high, h});
     }
@@ -250,7 +255,7 @@ void Sewing::pair_at(std::uint32_t layer, Found& found) {
 /// The usual case: each point has one contour edge from it, with a tile below and one above.
 /// Returns whether that was so.
 bool Sewing::pair_contours_at(std::uint32_t layer) {
-  if (layer == 0 || !has(layer) || !moved_.empty()) return false;
+  if (layer == 0 || !has(layer)) return false;
   const State& below = at(layer - 1);
   const State& above = at(layer);
   if (below.upper_rim.size() != above.lower_rim.size()) return false;
@@ -398,8 +403,9 @@ void Sewing::add_fans(std::span<const HalfEdge> corners, Found& found) const {
   }
 }
 
-/// Doubles the vertices whose further fans begin in a layer, and cuts its double edges.
-void Sewing::finalise(std::uint32_t layer) {
+/// Doubles the vertices whose further fans begin in a layer; then cuts the double edges in it and in
+/// the slice below. So the layer below is final.
+void Sewing::separate(std::uint32_t layer) {
   State& state = at(layer);
   std::ranges::sort(state.fans, {}, [](const Fan& fan) { return fan.front(); });
   for (const Fan& fan : state.fans) {
@@ -407,9 +413,7 @@ void Sewing::finalise(std::uint32_t layer) {
     doubled_.push_back({place(fan.front()), origin(fan.front())});
     for (const HalfEdge corner : fan) set_node(corner, number);
   }
-  std::ranges::sort(state.crowds, {},
-                    [](const Crowd& crowd) { return std::pair(crowd.low, crowd.high); });
-  for (const Crowd& crowd : state.crowds) split_double_edges(crowd);
+  split_double_edges(state.crowds);
   std::erase_if(moved_, [&](const auto& move) { return move.first.layer < layer; });
   state.fans = {};
   state.crowds = {};
@@ -437,6 +441,12 @@ void Sewing::set_node(HalfEdge corner, std::uint32_t node) {
 HalfEdge Sewing::latest(HalfEdge h) const {
   for (auto to = moved_.find(h); to != moved_.end(); to = moved_.find(h)) h = to->second;
   return h;
+}
+
+void Sewing::split_double_edges(std::vector<Crowd>& crowds) {
+  std::ranges::sort(crowds, {},
+                    [](const Crowd& crowd) { return std::pair(crowd.low, crowd.high); });
+  for (const Crowd& crowd : crowds) split_double_edges(crowd);
 }
 
 /// Where edges at one place still join the same two vertices, all that are there get midpoints,
@@ -481,8 +491,6 @@ HalfEdge Sewing::cut(HalfEdge h, std::uint32_t middle) {
   state.mates.resize(3 * tiles.size(), none);
   cut_faces_.push_back({h.layer, f});
   if (const HalfEdge beyond = mate(n); !beyond.is_none()) join({h.layer, 3 * f + 1}, beyond);
-  if (opposite < state.corner_counts.size()) ++state.corner_counts[opposite];
-  if (from < state.first_corners.size()) state.first_corners[from] = 3 * f + 1;
   set_node(n, middle);
   moved_[n] = {h.layer, 3 * f + 1};
   join(n, {h.layer, 3 * f + 2});

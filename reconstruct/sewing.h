@@ -45,7 +45,7 @@ struct SewnVertex {
 /// across the solid, vertices are doubled until each has one fan of faces, and edges that still
 /// join the same two vertices get midpoints of their own.
 ///
-/// A layer is final when the next one has been added. Those that are final can be dropped: what is
+/// A layer is final when the next two have been added. Those that are final can be dropped: what is
 /// in memory are the layers that are not, and the vertices and faces made by sewing, which are few.
 ///
 /// Vertices are numbered: slice by slice, with the inner vertices of a slab behind the slice below
@@ -157,7 +157,7 @@ class Sewing {
 
   void number(State& state);
   void settle(std::uint32_t bound, unsigned threads);
-  void finalise(std::uint32_t layer);
+  void separate(std::uint32_t layer);
 
   void pair_within(std::uint32_t layer);
   static void sort_out(State& state, std::vector<std::uint32_t>& ends);
@@ -173,6 +173,7 @@ class Sewing {
   void add_fans(std::span<const HalfEdge> corners, Found& found) const;
 
   [[nodiscard]] HalfEdge latest(HalfEdge h) const;
+  void split_double_edges(std::vector<Crowd>& crowds);
   void split_double_edges(const Crowd& crowd);
   void split_edge(HalfEdge h);
   [[nodiscard]] HalfEdge cut(HalfEdge h, std::uint32_t middle);
@@ -180,7 +181,9 @@ class Sewing {
   std::deque<State> layers_;
   std::uint32_t first_layer_ = 0;
   std::uint32_t joined_bound_ = 0;  // layers below are joined to the one under them
+  std::uint32_t settled_bound_ = 0;  // layers below have doubled vertices and cut edges
   std::uint32_t final_bound_ = 0;
+  std::vector<Crowd> top_crowds_;  // in the slice above the last layer
   std::uint32_t vertex_count_ = 0;
   std::uint64_t face_count_ = 0;
   std::vector<SewnVertex> doubled_;
