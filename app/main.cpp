@@ -93,6 +93,9 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
          "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
       ->type_name("UNIT")
       ->check(CLI::Validator(complain_of_unit, ""));
+  sub->add_flag("--smooth", command.options.smooth,
+                "Bend the surface between the slices as their neighbours suggest; it still passes "
+                "through every contour");
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   return sub;

@@ -29,7 +29,9 @@ double overall(Stage stage, double fraction) {
     case Stage::clean:
       return 0.1 * fraction;
     case Stage::tile:
-      return 0.1 + 0.7 * fraction;
+      return 0.1 + 0.4 * fraction;
+    case Stage::smooth:
+      return 0.5 + 0.3 * fraction;
     case Stage::sew:
       break;
   }

@@ -51,6 +51,8 @@ const char* name(Stage stage) {
       return "clean";
     case Stage::tile:
       return "tile";
+    case Stage::smooth:
+      return "smooth";
     case Stage::sew:
       break;
   }

@@ -22,6 +22,9 @@ enum class Cap {
 struct Options {
   Fill fill = Fill::even_odd;
   Cap cap = Cap::flat;
+  /// Bends the surface between the slices as their neighbours suggest (reconstruct/smooth.h);
+  /// otherwise it is straight from slice to slice.
+  bool smooth = false;
   /// Only contours with this label; all contours where not set.
   std::optional<std::string> label = {};
   /// Threads that work at the same time; 0: as many as the machine has. Changes nothing but time.

@@ -10,7 +10,7 @@ enum class VertexKind : std::uint8_t {
   contour,   ///< a point of an input contour, unchanged
   cleaning,  ///< made in a slice by cleaning: where contours of that slice cross
   crossing,  ///< where contour edges of two neighbouring slices cross in projection
-  steiner,   ///< added between two slices, in forks and ends
+  steiner,   ///< added between two slices: in forks and ends, and where the surface bends
 };
 
 /// Where a vertex of the surface comes from. Indices are those of the input.

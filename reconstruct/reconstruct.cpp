@@ -12,6 +12,7 @@
 #include "reconstruct/parallel.h"
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
+#include "reconstruct/smooth.h"
 #include "reconstruct/tiles.h"
 
 namespace loft {
@@ -221,6 +222,26 @@ std::vector<TileSet> tile_all(const std::vector<Region>& regions, unsigned threa
   return slabs;
 }
 
+/// The slices around each slab.
+Surroundings surroundings(std::span<const SliceShape> shapes, std::size_t slab) {
+  Surroundings found{};
+  for (std::size_t k = 0; k < found.size(); ++k)
+    if (slab + k >= 1 && slab + k - 1 < shapes.size()) found[k] = &shapes[slab + k - 1];
+  return found;
+}
+
+void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs, unsigned threads,
+                const Progress& progress) {
+  Reporter reporter(progress, Stage::smooth, slabs.size());
+  std::vector<SliceShape> shapes(regions.size());
+  for_each_index(regions.size(), threads,
+                 [&](std::size_t i, unsigned) { shapes[i] = SliceShape(regions[i]); });
+  for_each_index(slabs.size(), threads, [&](std::size_t i, unsigned) {
+    slabs[i] = smooth(regions[i], regions[i + 1], surroundings(shapes, i), std::move(slabs[i]));
+    reporter.add_step();
+  });
+}
+
 void check_enough(std::span<const Region> regions) {
   const auto filled =
       std::ranges::count_if(regions, [](const Region& region) { return !region.is_empty(); });
@@ -252,6 +273,7 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
   auto slabs = tile_all(regions, options.threads, progress);
+  if (options.smooth) smooth_all(regions, slabs, options.threads, progress);
   report_unlinked(regions, slabs, repairs);
   std::ranges::stable_sort(repairs, {}, &Defect::z);
   Reporter sewing(progress, Stage::sew, 1);

@@ -1,0 +1,401 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/smooth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <unordered_map>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "reconstruct/box_tree.h"
+#include "reconstruct/predicates.h"
+
+namespace loft {
+
+namespace {
+
+using cdt::Point;
+
+constexpr std::uint32_t none = Origin::none;
+
+/// An edge is split where its middle is further from the smooth surface than that share of the
+/// slab's height, at most that many times over. On 19 stacks a fourth round gained less than 2%.
+constexpr double coarseness = 0.01;
+constexpr int most_rounds = 3;
+
+/// How far a vertex may go: new ones as a share of their edge, those of forks and ends as a share
+/// of the slab's height.
+constexpr double most_of_edge = 0.35;
+constexpr double most_of_fork = 0.5;
+constexpr double most_of_end = 1;
+
+/// Vertices stay that share of the slab's height away from the slices.
+constexpr double least_share = 0.02;
+
+/// Where the function is flatter than that, its zero is not near.
+constexpr double least_gradient = 0.2;
+constexpr int newton_steps = 3;
+
+/// A place is on the smooth surface if it is nearer than that share of the slab's height.
+constexpr double nearness = 0.003;
+
+/// Where bent tiles meet they are straightened by half, and wholly below that share.
+constexpr double least_bend = 0.2;
+constexpr int most_corrections = 12;
+
+Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+double length(const Vec3& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
+
+Vec3 along(const Vec3& p, double share, const Vec3& way) {
+  return {p[0] + share * way[0], p[1] + share * way[1], p[2] + share * way[2]};
+}
+
+/// The same whichever end is named first.
+Vec3 middle(const Vec3& a, const Vec3& b) {
+  const Vec3& first = std::min(a, b);
+  return along(first, 0.5, difference(std::max(a, b), first));
+}
+
+/// What a connected piece of the tiles is bent to; nothing if its slices do not tell.
+using Shape = std::variant<std::monostate, SmoothPassage, SmoothEnd>;
+
+/// Numbers edges by their nodes.
+class EdgeIndex {
+ public:
+  /// The value of an edge, and whether it was set before.
+  std::pair<std::uint32_t&, bool> at(std::uint32_t a, std::uint32_t b) {
+    const auto [low, high] = std::minmax(a, b);
+    const auto [entry, is_new] = values_.try_emplace(std::uint64_t{low} << 32 | high, none);
+    return {entry->second, !is_new};
+  }
+
+ private:
+  std::unordered_map<std::uint64_t, std::uint32_t> values_;  // looked up, never walked through
+};
+
+/// Pieces of a slab's tiles that are connected through edges other than those of contours.
+class Pieces {
+ public:
+  Pieces(const Region& lower, const Region& upper, const Surroundings& slices,
+         const TileSet& tiles)
+      : lower_(lower), upper_(upper), slices_(slices), tiles_(tiles),
+        lower_count_(static_cast<std::uint32_t>(lower.points.size())),
+        contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())) {
+    connect();
+    find_shapes();
+  }
+
+  [[nodiscard]] std::vector<std::uint32_t>& of_tiles() { return piece_; }
+  [[nodiscard]] const Shape& shape(std::uint32_t piece) const { return shapes_[piece]; }
+
+ private:
+  /// Union-find over tiles.
+  void connect() {
+    piece_.resize(tiles_.tiles.size());
+    std::iota(piece_.begin(), piece_.end(), 0);
+    const auto root = [this](std::uint32_t tile) {
+      while (piece_[tile] != tile) tile = piece_[tile] = piece_[piece_[tile]];
+      return tile;
+    };
+    EdgeIndex tile_at;
+    for (std::uint32_t t = 0; t < piece_.size(); ++t) {
+      const auto& nodes = tiles_.tiles[t].nodes;
+      for (std::size_t i = 0; i < 3; ++i) {
+        if (is_contour(nodes[i], nodes[(i + 1) % 3])) continue;
+        const auto [other, is_known] = tile_at.at(nodes[i], nodes[(i + 1) % 3]);
+        if (!is_known) {
+          other = t;
+          continue;
+        }
+        const auto [low, high] = std::minmax({root(t), root(other)});
+        piece_[high] = low;
+      }
+    }
+    std::uint32_t count = 0;
+    std::vector<std::uint32_t> number(piece_.size());
+    for (std::uint32_t t = 0; t < piece_.size(); ++t) {
+      const std::uint32_t r = root(t);
+      if (r == t) number[t] = count++;
+      piece_[t] = r;
+    }
+    for (std::uint32_t& piece : piece_) piece = number[piece];
+    shapes_.resize(count);
+  }
+
+  [[nodiscard]] bool is_contour(std::uint32_t a, std::uint32_t b) const {
+    return std::max(a, b) < contour_count_ && (a < lower_count_) == (b < lower_count_);
+  }
+
+  /// Which slices' contours each piece touches.
+  void find_shapes() {
+    std::vector<unsigned> touched(shapes_.size());
+    for (std::uint32_t t = 0; t < piece_.size(); ++t)
+      for (const std::uint32_t node : tiles_.tiles[t].nodes)
+        if (node < contour_count_) touched[piece_[t]] |= node < lower_count_ ? 1U : 2U;
+    const auto ends = find_depths(touched);
+    for (std::uint32_t piece = 0; piece < shapes_.size(); ++piece) {
+      if (touched[piece] == 3) {
+        shapes_[piece] = SmoothPassage(slices_);
+      } else if (ends[piece].depth > 0) {
+        shapes_[piece] = SmoothEnd(slices_, touched[piece], ends[piece].place, ends[piece].depth);
+      }
+    }
+  }
+
+  struct Depth {
+    Point place;
+    double depth = 0;
+  };
+
+  /// The deepest known place of each piece that touches one slice only, of corners and middles of
+  /// edges; of equally deep ones the first by coordinates.
+  [[nodiscard]] std::vector<Depth> find_depths(const std::vector<unsigned>& touched) const {
+    std::vector<Depth> deepest(shapes_.size());
+    for (std::uint32_t t = 0; t < piece_.size(); ++t) {
+      const unsigned slice = touched[piece_[t]];
+      if (slice != 1 && slice != 2) continue;
+      Depth& known = deepest[piece_[t]];
+      const auto look = [&](const Vec3& p) {
+        const Point place{p[0], p[1]};
+        const double depth = std::abs(slices_[slice]->distance.at(place).distance);
+        if (depth > known.depth || (depth == known.depth && place < known.place))
+          known = {place, depth};
+      };
+      const auto& nodes = tiles_.tiles[t].nodes;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Vec3 p = place_of(lower_, upper_, tiles_.inner, nodes[i]);
+        look(p);
+        look(middle(p, place_of(lower_, upper_, tiles_.inner, nodes[(i + 1) % 3])));
+      }
+    }
+    return deepest;
+  }
+
+  const Region& lower_;
+  const Region& upper_;
+  const Surroundings& slices_;
+  const TileSet& tiles_;
+  std::uint32_t lower_count_;
+  std::uint32_t contour_count_;
+  std::vector<std::uint32_t> piece_;  // of each tile
+  std::vector<Shape> shapes_;         // of each piece
+};
+
+class Smoothing {
+ public:
+  Smoothing(const Region& lower, const Region& upper, const Surroundings& slices, TileSet tiles)
+      : lower_(lower), upper_(upper), plain_(std::move(tiles)), tiles_(plain_),
+        pieces_(lower, upper, slices, plain_),
+        lower_count_(static_cast<std::uint32_t>(lower.points.size())),
+        contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())) {}
+
+  TileSet run() {
+    move_inner();
+    while (round_ < most_rounds && refine()) ++round_;
+    for (int i = 0; i < most_corrections; ++i) {
+      if (!straighten()) return std::move(tiles_);
+    }
+    return std::move(plain_);
+  }
+
+ private:
+  /// How an inner vertex came to its place: from the middle of an edge, or from where it was.
+  struct Move {
+    std::array<std::uint32_t, 2> edge;  // none: it was there before
+    Vec3 start;
+    Vec3 way;
+    double share = 1;
+  };
+
+  [[nodiscard]] Vec3 place(std::uint32_t node) const {
+    return place_of(lower_, upper_, tiles_.inner, node);
+  }
+
+  [[nodiscard]] bool is_contour(std::uint32_t a, std::uint32_t b) const {
+    return std::max(a, b) < contour_count_ && (a < lower_count_) == (b < lower_count_);
+  }
+
+  [[nodiscard]] double height() const { return upper_.z - lower_.z; }
+
+  /// The way from p to the smooth surface, no further than `most`.
+  [[nodiscard]] Vec3 way_to(const Shape& shape, const Vec3& p, double most) const {
+    if (const auto* passage = std::get_if<SmoothPassage>(&shape)) return way_to(*passage, p, most);
+    if (const auto* end = std::get_if<SmoothEnd>(&shape)) return way_to(*end, p, most);
+    return {};
+  }
+
+  template <class Surface>
+  [[nodiscard]] Vec3 way_to(const Surface& surface, const Vec3& p, double most) const {
+    Vec3 way{};
+    for (int step = 0; step < newton_steps; ++step) {
+      const Sample sample = surface.at(along(p, 1, way));
+      const double steepness = std::max(length(sample.gradient), least_gradient);
+      if (std::abs(sample.value) < nearness * height() * steepness) break;
+      way = along(way, -sample.value / (steepness * steepness), sample.gradient);
+      const double least = least_share * height();
+      way[2] = std::clamp(p[2] + way[2], lower_.z + least, upper_.z - least) - p[2];
+      if (const double distance = length(way); distance > most)
+        way = along({}, most / distance, way);
+    }
+    return way;
+  }
+
+  /// The vertices that forks, ends and crossings have already.
+  void move_inner() {
+    std::vector<std::uint32_t> piece(tiles_.inner.size(), none);
+    for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t)
+      for (const std::uint32_t node : tiles_.tiles[t].nodes)
+        if (node >= contour_count_) piece[node - contour_count_] = pieces_.of_tiles()[t];
+    for (std::uint32_t i = 0; i < tiles_.inner.size(); ++i) {
+      const Vec3 start = tiles_.inner[i].place;
+      const Shape& shape = pieces_.shape(piece[i]);
+      const bool is_end = std::holds_alternative<SmoothEnd>(shape);
+      const Vec3 way =
+          way_to(shape, start, (is_end ? most_of_end : most_of_fork) * height());
+      moves_.push_back({{none, none}, start, way});
+      tiles_.inner[i].place = along(start, 1, way);
+    }
+  }
+
+  /// Splits every edge whose middle is off the smooth surface. Returns whether there was one.
+  bool refine() {
+    std::vector<Tile> tiles;
+    std::vector<std::uint32_t> pieces;
+    for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
+      const Tile& tile = tiles_.tiles[t];
+      const std::uint32_t piece = pieces_.of_tiles()[t];
+      std::array<std::uint32_t, 3> split;
+      for (std::size_t i = 0; i < 3; ++i)
+        split[i] = middle_of(tile.nodes[i], tile.nodes[(i + 1) % 3], piece);
+      cut(tile, split, tiles);
+      pieces.resize(tiles.size(), piece);
+    }
+    const bool is_changed = tiles.size() != tiles_.tiles.size();
+    tiles_.tiles = std::move(tiles);
+    pieces_.of_tiles() = std::move(pieces);
+    return is_changed;
+  }
+
+  /// The node that an edge is split at; none if it stays.
+  std::uint32_t middle_of(std::uint32_t a, std::uint32_t b, std::uint32_t piece) {
+    if (is_contour(a, b)) return none;
+    const auto [node, is_known] = middles_.at(a, b);
+    if (is_known) return node;
+    const Vec3 start = middle(place(a), place(b));
+    const Vec3 way = way_to(pieces_.shape(piece), start,
+                            most_of_edge * length(difference(place(a), place(b))));
+    if (!(length(way) > coarseness * height())) return none;
+    node = contour_count_ + static_cast<std::uint32_t>(tiles_.inner.size());
+    tiles_.inner.push_back({along(start, 1, way), VertexKind::steiner});
+    moves_.push_back({{a, b}, start, way});
+    return node;
+  }
+
+  /// Cuts a tile at the middles of its edges, `split[i]` between its nodes i and i + 1.
+  void cut(const Tile& tile, const std::array<std::uint32_t, 3>& split, std::vector<Tile>& tiles) {
+    const auto count = 3 - std::ranges::count(split, none);
+    const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+      tiles.push_back({{a, b, c}, tile.kind});
+    };
+    if (count == 0) {
+      tiles.push_back(tile);
+      return;
+    }
+    // Begin with a split edge; of two with the one that the other follows.
+    std::size_t first = 0;
+    while (split[first] == none || (count == 2 && split[(first + 1) % 3] == none)) ++first;
+    const std::uint32_t a = tile.nodes[first];
+    const std::uint32_t b = tile.nodes[(first + 1) % 3];
+    const std::uint32_t c = tile.nodes[(first + 2) % 3];
+    const std::uint32_t ab = split[first];
+    const std::uint32_t bc = split[(first + 1) % 3];
+    const std::uint32_t ca = split[(first + 2) % 3];
+    if (count == 1) {
+      add(a, ab, c);
+      add(ab, b, c);
+    } else if (count == 3) {
+      add(a, ab, ca);
+      add(ab, b, bc);
+      add(ca, bc, c);
+      add(ab, bc, ca);
+    } else {
+      add(ab, b, bc);
+      if (length(difference(place(a), place(bc))) < length(difference(place(ab), place(c)))) {
+        add(a, ab, bc);
+        add(a, bc, c);
+      } else {
+        add(a, ab, c);
+        add(ab, bc, c);
+      }
+    }
+  }
+
+  /// Takes moves back by half where tiles meet. Returns whether there were any.
+  bool straighten() {
+    const std::vector<bool> is_met = find_meeting();
+    if (std::ranges::find(is_met, true) == is_met.end()) return false;
+    std::vector<std::uint32_t> front;
+    for (std::uint32_t t = 0; t < is_met.size(); ++t)
+      if (is_met[t]) front.insert(front.end(), tiles_.tiles[t].nodes.begin(),
+                                  tiles_.tiles[t].nodes.end());
+    std::vector<bool> is_done(moves_.size());
+    while (!front.empty()) {
+      const std::uint32_t node = front.back();
+      front.pop_back();
+      if (node == none || node < contour_count_ || is_done[node - contour_count_]) continue;
+      is_done[node - contour_count_] = true;
+      Move& move = moves_[node - contour_count_];
+      move.share = move.share > least_bend ? move.share / 2 : 0;
+      front.insert(front.end(), move.edge.begin(), move.edge.end());
+    }
+    for (std::uint32_t i = 0; i < moves_.size(); ++i) {
+      Move& move = moves_[i];
+      if (move.edge[0] != none) move.start = middle(place(move.edge[0]), place(move.edge[1]));
+      tiles_.inner[i].place = along(move.start, move.share, move.way);
+    }
+    return true;
+  }
+
+  /// The tiles that are degenerate or meet others elsewhere than in common corners and edges.
+  [[nodiscard]] std::vector<bool> find_meeting() const {
+    std::vector<Corners> corners;
+    std::vector<Box3> boxes;
+    std::vector<bool> is_met(tiles_.tiles.size());
+    for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
+      const auto& nodes = tiles_.tiles[t].nodes;
+      const Corners& c = corners.emplace_back(
+          Corners{place(nodes[0]), place(nodes[1]), place(nodes[2])});
+      boxes.push_back(box_around(c[0], c[1], c[2]));
+      is_met[t] = collinear(c[0], c[1], c[2]);
+    }
+    BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+      if ((is_met[i] && is_met[j]) || !triangles_meet(corners[i], corners[j])) return;
+      is_met[i] = is_met[j] = true;
+    });
+    return is_met;
+  }
+
+  const Region& lower_;
+  const Region& upper_;
+  TileSet plain_;
+  TileSet tiles_;
+  Pieces pieces_;
+  std::uint32_t lower_count_;
+  std::uint32_t contour_count_;
+  std::vector<Move> moves_;  // of each inner vertex
+  EdgeIndex middles_;        // the node that each edge is split at; none if it stays
+  int round_ = 0;
+};
+
+}  // namespace
+
+TileSet smooth(const Region& lower, const Region& upper, const Surroundings& slices,
+               TileSet tiles) {
+  if (!tiles.is_linked || tiles.tiles.empty()) return tiles;
+  return Smoothing(lower, upper, slices, std::move(tiles)).run();
+}
+
+}  // namespace loft

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "reconstruct/region.h"
+#include "reconstruct/smooth_shape.h"
+#include "reconstruct/tiles.h"
+
+namespace loft {
+
+/// Bends the tiles of a slab towards the smooth surface through the slices around it (design,
+/// section 3, step 9). `lower` and `upper` are the regions that `tiles` lie between; `slices[1]`
+/// and `slices[2]` are their shapes.
+///
+/// Contour vertices and edges stay as they are. Every other edge that is off the smooth surface is
+/// split at a point on it, thrice at most. The tiles stay what tile() promises, by exact test:
+/// where bent ones would meet, they are straightened until they do not.
+/// A pure function of the four slices, so that an edit of a slice changes four slabs at most.
+/// Cost: O(n log n) for n tiles, in practice.
+[[nodiscard]] TileSet smooth(const Region& lower, const Region& upper, const Surroundings& slices,
+                             TileSet tiles);
+
+}  // namespace loft

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/smooth_shape.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace loft {
+
+namespace {
+
+using cdt::Point;
+
+/// A tangent may differ from the chord of the slab by that, as a slope and as a share of it: more
+/// comes from slices that show something else.
+constexpr double most_turn = 1.5;
+
+/// At the end of the stack, where the slab is continued as a circle: that share of the turn at its
+/// other end. All of it overshoots where shapes end flat.
+constexpr double end_turn = 0.75;
+
+/// No tangent is flatter than that, in radians.
+constexpr double steepest = 1.5;
+
+/// Heights of ends as shares of the slab. What to expect where there is no trend is what ends
+/// without --smooth have (see SheetHeights).
+constexpr double lowest_end = 0.1;
+constexpr double expected_end = 0.7;
+constexpr double highest_end = 0.75;
+
+/// From one slice to the next at one place: how the distance changes with z.
+struct Chord {
+  double angle;
+  double length;
+
+  Chord(double gap, double change)
+      : angle(std::atan2(change, gap)), length(std::hypot(gap, change)) {}
+};
+
+/// The share of the second chord in the direction of the circle through both at their common point.
+double share_of_second(const Chord& first, const Chord& second) {
+  return first.length / (first.length + second.length);
+}
+
+}  // namespace
+
+SmoothPassage::SmoothPassage(const Surroundings& slices, Point shift)
+    : slices_(slices), shift_(shift) {
+  for (const SliceShape*& slice : slices_)
+    if (slice != nullptr && slice->distance.is_empty()) slice = nullptr;
+}
+
+std::array<SmoothPassage::Tangent, 2> SmoothPassage::tangents(const Weights& distances) const {
+  const double gap = z(2) - z(1);
+  const Chord chord(gap, distances[2] - distances[1]);
+  std::array<double, 2> angles{chord.angle, chord.angle};
+  std::array<Tangent, 2> tangents{};
+  std::array<double, 2> shares{1, 1};  // of the slab's own chord in each tangent
+  if (has(0)) {
+    const double gap_below = z(1) - z(0);
+    const Chord below(gap_below, distances[1] - distances[0]);
+    shares[0] = share_of_second(below, chord);
+    angles[0] = shares[0] * chord.angle + (1 - shares[0]) * below.angle;
+    tangents[0].weights[0] -= (1 - shares[0]) / gap_below;
+    tangents[0].weights[1] += (1 - shares[0]) / gap_below;
+  }
+  if (has(3)) {
+    const double gap_above = z(3) - z(2);
+    const Chord above(gap_above, distances[3] - distances[2]);
+    shares[1] = 1 - share_of_second(chord, above);
+    angles[1] = shares[1] * chord.angle + (1 - shares[1]) * above.angle;
+    tangents[1].weights[2] -= (1 - shares[1]) / gap_above;
+    tangents[1].weights[3] += (1 - shares[1]) / gap_above;
+  }
+  if (!has(0)) angles[0] += end_turn * (chord.angle - angles[1]);
+  if (!has(3)) angles[1] += end_turn * (chord.angle - angles[0]);
+
+  const double slope = (distances[2] - distances[1]) / gap;
+  const double turn = most_turn * std::max(1.0, std::abs(slope));
+  for (std::size_t i = 0; i < 2; ++i) {
+    tangents[i].slope = std::clamp(std::tan(std::clamp(angles[i], -steepest, steepest)),
+                                   slope - turn, slope + turn);
+    tangents[i].weights[1] -= shares[i] / gap;
+    tangents[i].weights[2] += shares[i] / gap;
+  }
+  return tangents;
+}
+
+Sample SmoothPassage::at(const Vec3& p) const {
+  const double gap = z(2) - z(1);
+  Weights distances{};
+  std::array<Point, 4> directions{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (!has(i)) continue;
+    const double share = (z(i) - p[2]) / gap;
+    const auto found =
+        slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y});
+    distances[i] = found.distance;
+    directions[i] = found.outward;
+  }
+  const auto [lower, upper] = tangents(distances);
+
+  // The cubic's basis (Hermite), and its derivatives by z.
+  const double t = (p[2] - z(1)) / gap;
+  const double u = 1 - t;
+  const double from_upper = t * t * (3 - 2 * t);
+  const double from_lower = 1 - from_upper;
+  const double lower_tangent = t * u * u * gap;
+  const double upper_tangent = -t * t * u * gap;
+  const double rise = 6 * t * u / gap;
+  const double lower_rise = u * (1 - 3 * t);
+  const double upper_rise = t * (3 * t - 2);
+
+  Sample sample{from_lower * distances[1] + from_upper * distances[2] +
+                  lower_tangent * lower.slope + upper_tangent * upper.slope,
+              {0, 0, rise * (distances[2] - distances[1]) + lower_rise * lower.slope +
+                         upper_rise * upper.slope}};
+  const Weights base{0, from_lower, from_upper, 0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    const double weight =
+        base[i] + lower_tangent * lower.weights[i] + upper_tangent * upper.weights[i];
+    sample.gradient[0] += weight * directions[i].x;
+    sample.gradient[1] += weight * directions[i].y;
+  }
+  sample.gradient[2] -= (shift_.x * sample.gradient[0] + shift_.y * sample.gradient[1]) / gap;
+  return sample;
+}
+
+SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle, double depth)
+    : slice_(slices[slice]), upwards_(slice == 1 ? 1 : -1), depth_(depth), trend_(0) {
+  const double height = slices[2]->z - slices[1]->z;
+  const SliceShape* before = slices[slice == 1 ? 0 : 3];
+  double lowest = expected_end;
+  if (before != nullptr && !before->distance.is_empty()) {
+    const double gap = std::abs(slice_->z - before->z);
+    const bool is_solid = slice_->distance.at(middle).distance < 0;
+    const double there = before->distance.at(middle).distance * (is_solid ? -1 : 1);
+    if (there > 0) {
+      trend_ = (depth * depth - there * there - gap * gap) / gap;
+      lowest = lowest_end;
+    }
+  }
+  const double top = (trend_ + std::hypot(trend_, 2 * depth)) / 2;
+  scale_ = std::clamp(top, lowest * height, highest_end * height) / top;
+}
+
+Sample SmoothEnd::at(const Vec3& p) const {
+  const auto [distance, outward] = slice_->distance.at({p[0], p[1]});
+  const double from_axis = depth_ - std::min(std::abs(distance), depth_);
+  const double squared = std::max(depth_ * depth_ - from_axis * from_axis, 1e-12 * depth_ * depth_);
+  const double root = std::sqrt(trend_ * trend_ + 4 * squared);
+  const double height = scale_ * (trend_ + root) / 2;
+  const double slope = scale_ * 2 * from_axis / root * (distance < 0 ? 1 : -1);
+  return {upwards_ * (p[2] - slice_->z) - height,
+          {slope * outward.x, slope * outward.y, upwards_}};
+}
+
+}  // namespace loft

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+
+#include "reconstruct/mesh.h"
+#include "reconstruct/region.h"
+#include "reconstruct/signed_distance.h"
+
+namespace loft {
+
+/// What a smooth surface has to know of a slice: how far any place is from its contours.
+struct SliceShape {
+  double z = 0;
+  SignedDistance distance;  ///< empty where the region is
+
+  SliceShape() = default;
+  explicit SliceShape(const Region& region) : z(region.z), distance(region) {}
+};
+
+/// A slab, between the slices [1] and [2], with the slices before and after it. Null at the end of
+/// the stack, where there is none.
+using Surroundings = std::array<const SliceShape*, 4>;
+
+/// A smooth surface near a place: it is where the value is 0.
+struct Sample {
+  double value;
+  Vec3 gradient;
+};
+
+/// The smooth surface between two slices that both have a part in it.
+///
+/// Over each place of the plane the signed distances to the contours of the slices, as a function
+/// of z, are joined by a cubic with tangents at both slices: shape-based interpolation (Raya and
+/// Udupa, 1990) of the third order. The tangent at a slice is that of the circle through the three
+/// points: the directions of both chords, each weighted with the other's length. So it is exact
+/// for round shapes, follows the flatter side where a flat face meets an upright one, and all but
+/// disregards a slice in which there is nothing near. Reads one slice on either side of the slab.
+class SmoothPassage {
+ public:
+  /// The slab is sheared: what is at p in the lower slice is expected at p + shift in the upper one.
+  explicit SmoothPassage(const Surroundings& slices, cdt::Point shift = {});
+
+  /// Cost: that of a query of each slice. The gradient is approximate: it takes the tangents for
+  /// weighted means of the chords.
+  [[nodiscard]] Sample at(const Vec3& p) const;
+
+ private:
+  using Weights = std::array<double, 4>;
+  struct Tangent {
+    double slope;
+    Weights weights;  // of the slices' distances in it
+  };
+
+  [[nodiscard]] bool has(std::size_t slice) const { return slices_[slice] != nullptr; }
+  [[nodiscard]] double z(std::size_t slice) const { return slices_[slice]->z; }
+  [[nodiscard]] std::array<Tangent, 2> tangents(const Weights& distances) const;
+
+  Surroundings slices_;  // null, too, where the slice is empty
+  cdt::Point shift_;
+};
+
+/// The smooth surface over a part that is in one slice of a slab only, or over such a hole.
+///
+/// A spheroid standing on the contours: at the depth d of a place below the part's boundary, as
+/// high as a ball is at r - d from its axis, r the part's largest depth. How fast the ball shrinks
+/// is read from the slice before: how deep the part's middle is there. The height is kept within
+/// the slab; where the slice before has nothing there, at least 0.7 of it.
+class SmoothEnd {
+ public:
+  /// On slice 1 or 2 of the surroundings; `middle` is where the part is deepest, `depth` deep.
+  SmoothEnd(const Surroundings& slices, std::size_t slice, cdt::Point middle, double depth);
+
+  [[nodiscard]] Sample at(const Vec3& p) const;
+
+ private:
+  const SliceShape* slice_;
+  double upwards_;    // 1 or -1
+  double depth_;      // of the middle
+  double trend_;      // growth of the squared radius a unit of height, less the ball's own
+  double scale_ = 1;  // of heights, to fit into the slab
+};
+
+}  // namespace loft
