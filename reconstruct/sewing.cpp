@@ -21,7 +21,7 @@ constexpr std::uint32_t none = Origin::none;
 // Mates are coded by their number in their layer and the step to that layer.
 constexpr std::uint32_t in_layer_below = 0x8000'0000;
 constexpr std::uint32_t in_layer_above = 0x4000'0000;
-constexpr std::uint32_t number_bits = 0x3fff'ffff;
+constexpr std::uint32_t number_bits = VertexNumbers::bound - 1;
 
 /// For r and s in a plane with the line pq: whether both are on the same side of it.
 bool on_same_side(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
@@ -87,24 +87,17 @@ void Sewing::join(HalfEdge a, HalfEdge b) {
 std::uint32_t Sewing::vertex(HalfEdge corner) const {
   const State& state = at(corner.layer);
   const std::uint32_t node = state.node(corner.index);
-  if ((node & is_doubled) != 0) return node;
+  if ((node & VertexNumbers::doubled_mark) != 0) return node;
   if (node < state.lower_count) return state.lower + node;
   if (node < state.contour_count) return state.upper + (node - state.lower_count);
   return state.inner + (node - state.contour_count);
 }
 
-std::uint32_t Sewing::final_number(std::uint32_t vertex) const {
-  if ((vertex & is_doubled) == 0) return vertex;
-  const bool is_middle = (vertex & is_midpoint) == is_midpoint;
-  return vertex_count_ + (vertex & number_bits) +
-         (is_middle ? static_cast<std::uint32_t>(doubled_.size()) : 0);
-}
-
 Vec3 Sewing::place(HalfEdge corner) const {
   const State& state = at(corner.layer);
   const std::uint32_t node = state.node(corner.index);
-  if ((node & is_midpoint) == is_midpoint) return midpoints_[node & number_bits].place;
-  if ((node & is_doubled) != 0) return doubled_[node & number_bits].place;
+  if ((node & VertexNumbers::midpoint_mark) == VertexNumbers::midpoint_mark) return midpoints_[node & number_bits].place;
+  if ((node & VertexNumbers::doubled_mark) != 0) return doubled_[node & number_bits].place;
   return place_of(*state.layer.lower, *state.layer.upper, state.layer.tiles.inner, node);
 }
 
@@ -409,7 +402,7 @@ void Sewing::separate(std::uint32_t layer) {
   State& state = at(layer);
   std::ranges::sort(state.fans, {}, [](const Fan& fan) { return fan.front(); });
   for (const Fan& fan : state.fans) {
-    const auto number = static_cast<std::uint32_t>(doubled_.size()) | is_doubled;
+    const auto number = static_cast<std::uint32_t>(doubled_.size()) | VertexNumbers::doubled_mark;
     doubled_.push_back({place(fan.front()), origin(fan.front())});
     for (const HalfEdge corner : fan) set_node(corner, number);
   }
@@ -468,7 +461,7 @@ void Sewing::split_edge(HalfEdge h) {
   const HalfEdge g = mate(h);
   const Vec3 p = place(h);
   const Vec3 q = place(next(h));
-  const auto middle = static_cast<std::uint32_t>(midpoints_.size()) | is_midpoint;
+  const auto middle = static_cast<std::uint32_t>(midpoints_.size()) | VertexNumbers::midpoint_mark;
   midpoints_.push_back(
       {{p[0] + (q[0] - p[0]) / 2, p[1] + (q[1] - p[1]) / 2, p[2] + (q[2] - p[2]) / 2},
        {VertexKind::steiner, at(h.layer).layer.slice, Origin::none, Origin::none}});
@@ -489,6 +482,7 @@ HalfEdge Sewing::cut(HalfEdge h, std::uint32_t middle) {
   const std::uint32_t opposite = state.node(prev(h).index);
   tiles.push_back({{middle, from, opposite}, tiles[h.face()].kind});
   state.mates.resize(3 * tiles.size(), none);
+  state.cuts.push_back(static_cast<std::uint32_t>(cut_faces_.size()));
   cut_faces_.push_back({h.layer, f});
   if (const HalfEdge beyond = mate(n); !beyond.is_none()) join({h.layer, 3 * f + 1}, beyond);
   set_node(n, middle);
