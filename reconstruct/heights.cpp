@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "reconstruct/out_of_core.h"
+
 namespace loft {
 
 std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index) {

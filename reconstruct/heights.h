@@ -19,9 +19,6 @@ struct Height {
   std::vector<std::uint32_t> slices;
 };
 
-/// What is wrong with the numbers of a slice (DefectKind::not_finite); `index` is its own.
-[[nodiscard]] std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index);
-
 /// The heights of slices, ascending; `z` are theirs, in the order of the input. Notes those that
 /// are merged. Throws InputError where two are nearer than rounding allows.
 [[nodiscard]] std::vector<Height> find_heights(std::span<const double> z,

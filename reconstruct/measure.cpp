@@ -50,9 +50,7 @@ std::size_t count_components(const Surface& surface) {
     sets.unite(static_cast<std::uint32_t>(surface.face_handle(h).idx()),
                static_cast<std::uint32_t>(surface.face_handle(g).idx()));
   }
-  std::size_t count = 0;
-  for (std::uint32_t f = 0; f < surface.n_faces(); ++f) count += sets.find(f) == f ? 1U : 0U;
-  return count;
+  return sets.count();
 }
 
 }  // namespace

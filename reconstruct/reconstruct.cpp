@@ -8,6 +8,7 @@
 #include <string>
 
 #include "reconstruct/heights.h"
+#include "reconstruct/out_of_core.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
