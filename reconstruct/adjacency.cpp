@@ -50,6 +50,17 @@ void DisjointSets::unite(std::uint32_t a, std::uint32_t b) {
   parent_[high] = low;
 }
 
+std::uint32_t DisjointSets::add() {
+  parent_.push_back(static_cast<std::uint32_t>(parent_.size()));
+  return parent_.back();
+}
+
+std::size_t DisjointSets::count() const {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < parent_.size(); ++i) count += parent_[i] == i ? 1U : 0U;
+  return count;
+}
+
 std::vector<std::uint32_t> proper_faces(const Mesh& mesh) {
   const auto is_proper = [&](const std::array<std::uint32_t, 3>& face) {
     const auto [a, b, c] = face;

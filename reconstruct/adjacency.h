@@ -46,6 +46,10 @@ class DisjointSets {
   /// The smallest element of the set that `element` is in.
   [[nodiscard]] std::uint32_t find(std::uint32_t element);
   void unite(std::uint32_t a, std::uint32_t b);
+  /// A new element, n, in a set of its own.
+  std::uint32_t add();
+  /// How many sets there are. Cost: O(n).
+  [[nodiscard]] std::size_t count() const;
 
  private:
   std::vector<std::uint32_t> parent_;

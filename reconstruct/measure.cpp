@@ -41,32 +41,6 @@ std::size_t count_components(const Mesh& mesh, std::span<const std::uint32_t> fa
   return static_cast<std::size_t>(std::ranges::count_if(faces, is_first));
 }
 
-/// Euler: vertices - edges + faces = 2 components - 2 genus.
-int genus(const Measures& m) {
-  const auto euler =
-      static_cast<std::int64_t>(m.vertices + m.faces) - static_cast<std::int64_t>(m.edges);
-  return static_cast<int>((2 * static_cast<std::int64_t>(m.components) - euler) / 2);
-}
-
-/// Adds up faces, seen from a corner of the mesh, so that its place in space costs no accuracy.
-class Sum {
- public:
-  explicit Sum(Measures& m) : m_(m) {}
-
-  void add(const Vec3& a, const Vec3& b, const Vec3& c) {
-    if (!has_origin_) origin_ = a;
-    has_origin_ = true;
-    const Vec3 normal = cross(minus(b, a), minus(c, a));
-    m_.area += std::sqrt(dot(normal, normal)) / 2;
-    m_.volume += dot(normal, minus(a, origin_)) / 6;
-  }
-
- private:
-  Measures& m_;
-  bool has_origin_ = false;
-  Vec3 origin_{};
-};
-
 std::size_t count_components(const Surface& surface) {
   DisjointSets sets(surface.n_faces());
   for (const auto edge : surface.edges()) {
@@ -76,12 +50,24 @@ std::size_t count_components(const Surface& surface) {
     sets.unite(static_cast<std::uint32_t>(surface.face_handle(h).idx()),
                static_cast<std::uint32_t>(surface.face_handle(g).idx()));
   }
-  std::size_t count = 0;
-  for (std::uint32_t f = 0; f < surface.n_faces(); ++f) count += sets.find(f) == f ? 1U : 0U;
-  return count;
+  return sets.count();
 }
 
 }  // namespace
+
+/// Euler: vertices - edges + faces = 2 components - 2 genus.
+int genus(const Measures& m) {
+  const auto euler =
+      static_cast<std::int64_t>(m.vertices + m.faces) - static_cast<std::int64_t>(m.edges);
+  return static_cast<int>((2 * static_cast<std::int64_t>(m.components) - euler) / 2);
+}
+
+void FaceSum::add(const Vec3& a, const Vec3& b, const Vec3& c) {
+  if (!origin_) origin_ = a;
+  const Vec3 normal = cross(minus(b, a), minus(c, a));
+  area_ += std::sqrt(dot(normal, normal)) / 2;
+  volume_ += dot(normal, minus(a, *origin_)) / 6;
+}
 
 Measures measure(const Mesh& mesh) {
   const std::vector<std::uint32_t> faces = proper_faces(mesh);
@@ -92,11 +78,13 @@ Measures measure(const Mesh& mesh) {
   result.faces = faces.size();
   result.components = count_components(mesh, faces, edges);
   result.genus = genus(result);
-  Sum sum(result);
+  FaceSum sum;
   for (const std::uint32_t face : faces) {
     const auto [a, b, c] = mesh.faces[face];
     sum.add(mesh.points[a], mesh.points[b], mesh.points[c]);
   }
+  result.area = sum.area();
+  result.volume = sum.volume();
   return result;
 }
 
@@ -107,7 +95,7 @@ Measures measure(const Surface& surface) {
   result.faces = surface.n_faces();
   result.components = count_components(surface);
   result.genus = genus(result);
-  Sum sum(result);
+  FaceSum sum;
   for (const auto face : surface.faces()) {
     std::array<Vec3, 3> corners;
     auto h = surface.halfedge_handle(face);
@@ -118,6 +106,8 @@ Measures measure(const Surface& surface) {
     }
     sum.add(corners[0], corners[1], corners[2]);
   }
+  result.area = sum.area();
+  result.volume = sum.volume();
   return result;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 
 #include "reconstruct/mesh.h"
 #include "reconstruct/surface.h"
@@ -18,6 +19,23 @@ struct Measures {
   double area = 0;
   double volume = 0;  ///< signed: positive if faces look outwards
 };
+
+/// Adds up area and volume face by face, seen from the first corner that is added, so that the
+/// place of a mesh costs no accuracy.
+class FaceSum {
+ public:
+  void add(const Vec3& a, const Vec3& b, const Vec3& c);
+  [[nodiscard]] double area() const { return area_; }
+  [[nodiscard]] double volume() const { return volume_; }
+
+ private:
+  std::optional<Vec3> origin_;
+  double area_ = 0;
+  double volume_ = 0;
+};
+
+/// The genus by Euler's formula, from the counts of everything else.
+[[nodiscard]] int genus(const Measures& measures);
 
 /// Cost: O(n log n).
 [[nodiscard]] Measures measure(const Mesh& mesh);

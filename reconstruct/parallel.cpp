@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/parallel.h"
 
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -66,6 +67,8 @@ void for_each_index(std::size_t count, unsigned threads,
     return;
   }
   Work work(count, body);
+  // More threads than processors are refused, unless it is said so.
+  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, workers);
   tbb::task_arena arena(static_cast<int>(workers));
   arena.execute([&] {
     tbb::parallel_for(

@@ -2,13 +2,13 @@
 #include "reconstruct/reconstruct.h"
 
 #include <algorithm>
-#include <cmath>
 #include <iterator>
 #include <mutex>
-#include <optional>
 #include <set>
 #include <string>
 
+#include "reconstruct/heights.h"
+#include "reconstruct/out_of_core.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
@@ -19,98 +19,11 @@ namespace loft {
 
 namespace {
 
-/// All contours at one height.
-struct Height {
-  double z;
-  std::uint32_t slice;  // the first of the input's slices at this height
-  std::vector<ContourSource> contours;
-};
-
-using cdt::Triangulation;
-
-std::vector<Defect> find_not_finite(std::span<const Slice> slices) {
+std::vector<Defect> find_unusable(std::span<const Slice> slices) {
   std::vector<Defect> found;
-  for (std::uint32_t s = 0; s < slices.size(); ++s) {
-    const Slice& slice = slices[s];
-    if (!(std::abs(slice.z) <= Triangulation::largest_coordinate))
-      found.push_back(
-          {DefectKind::not_finite,
-           slice.z,
-           s,
-           {},
-           {},
-           {},
-           0,
-           "the height is not a finite number below 1e75; correct it or leave the slice out"});
-    for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
-      const auto& points = slice.contours[c].points;
-      for (std::uint32_t p = 0; p < points.size(); ++p)
-        if (!Triangulation::is_usable(points[p].x) || !Triangulation::is_usable(points[p].y))
-          found.push_back(
-              {DefectKind::not_finite,
-               slice.z,
-               s,
-               c,
-               p,
-               {},
-               0,
-               "a coordinate is not finite, beyond 1e75, or below 1e-50 without being 0; "
-               "correct the point or leave it out"});
-    }
-  }
+  for (std::uint32_t s = 0; s < slices.size(); ++s)
+    std::ranges::move(find_unusable(slices[s], s), std::back_inserter(found));
   return found;
-}
-
-/// The slices by height, those of equal height as one.
-std::vector<Height> find_layers(std::span<const Slice> slices,
-                                const std::optional<std::string>& label,
-                                std::vector<Defect>& repairs) {
-  std::vector<std::uint32_t> order(slices.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = i;
-  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return slices[i].z; });
-  std::vector<Height> layers;
-  for (const std::uint32_t s : order) {
-    const Slice& slice = slices[s];
-    if (layers.empty() || layers.back().z != slice.z) {
-      layers.push_back({slice.z, s, {}});
-    } else {
-      repairs.push_back({DefectKind::merged_slices,
-                         slice.z,
-                         s,
-                         {},
-                         {},
-                         {},
-                         0,
-                         "has the same height as slice " + std::to_string(layers.back().slice) +
-                             "; merged into it"});
-    }
-    for (std::uint32_t c = 0; c < slice.contours.size(); ++c)
-      if (!label || slice.contours[c].label == *label)
-        layers.back().contours.push_back({slice.contours[c].points, s, c});
-  }
-  return layers;
-}
-
-/// Between slices there must be room for heights that are different numbers.
-void check_gaps(std::span<const Height> layers) {
-  constexpr double least_gap = 0x1p-40;  // relative to the height
-  std::vector<Defect> found;
-  for (std::size_t i = 0; i + 1 < layers.size(); ++i) {
-    const double height = std::max(std::abs(layers[i].z), std::abs(layers[i + 1].z));
-    if (layers[i + 1].z - layers[i].z < least_gap * height)
-      found.push_back(
-          {DefectKind::slices_too_near,
-           layers[i + 1].z,
-           layers[i + 1].slice,
-           {},
-           {},
-           {},
-           0,
-           "is nearer to slice " + std::to_string(layers[i].slice) +
-               " than rounding allows at that height; leave one out, or give heights from "
-               "an origin nearby"});
-  }
-  if (!found.empty()) throw InputError(std::move(found));
 }
 
 /// Leaves out the empty regions at both ends; those between are where the shape is interrupted.
@@ -121,28 +34,11 @@ std::vector<Region> trim(std::vector<Region> regions, std::vector<Defect>& repai
   if (first >= last) return {};
   std::vector<Region> kept(std::make_move_iterator(first), std::make_move_iterator(last));
   for (const Region& region : kept)
-    if (region.is_empty())
-      repairs.push_back({DefectKind::empty_slice,
-                         region.z,
-                         region.slice,
-                         {},
-                         {},
-                         {},
-                         0,
-                         "is empty: the shape ends below it and starts again above; remove the "
-                         "slice if it should go on"});
+    if (region.is_empty()) repairs.push_back(empty_slice(region));
   return kept;
 }
 
-/// For Cap::dome: an empty slice one gap beyond each end, into which the shape rounds off.
 void add_beyond_ends(std::vector<Region>& regions) {
-  const auto beyond = [](const Region& end, const Region& before) {
-    Region region;
-    region.z = end.z + (end.z - before.z);
-    region.slice = Origin::none;
-    region.loop_starts = {0};
-    return region;
-  };
   const Region low = beyond(regions[0], regions[1]);
   const Region high = beyond(regions[regions.size() - 1], regions[regions.size() - 2]);
   regions.insert(regions.begin(), low);
@@ -153,18 +49,7 @@ void add_beyond_ends(std::vector<Region>& regions) {
 void report_unlinked(std::span<const Region> regions, std::span<const TileSet> slabs,
                      std::vector<Defect>& repairs) {
   for (std::size_t i = 0; i < slabs.size(); ++i)
-    if (!slabs[i].is_linked)
-      repairs.push_back(
-          {DefectKind::unlinked_slices,
-           regions[i].z,
-           regions[i].slice,
-           {},
-           {},
-           {},
-           0,
-           "no valid surface was found from here to slice " + std::to_string(regions[i + 1].slice) +
-               ", whose contours nearly coincide with these; the shape is interrupted "
-               "there. Make the contours equal or more different"});
+    if (!slabs[i].is_linked) repairs.push_back(unlinked_slices(regions[i], regions[i + 1]));
 }
 
 /// Counts the finished steps of a stage, of whatever thread, and passes them on one at a time.
@@ -194,15 +79,17 @@ class Reporter {
   std::mutex mutex_;
 };
 
-std::vector<Region> clean_all(const std::vector<Height>& layers, const Options& options,
-                              std::vector<Defect>& repairs, const Progress& progress) {
-  Reporter reporter(progress, Stage::clean, layers.size());
-  std::vector<Region> regions(layers.size());
-  std::vector<std::vector<Defect>> found(layers.size());
-  std::vector<Triangulation> memories(thread_count(options.threads));
-  for_each_index(layers.size(), options.threads, [&](std::size_t i, unsigned worker) {
-    regions[i] = clean(layers[i].contours, layers[i].z, options.fill, found[i], memories[worker]);
-    regions[i].slice = layers[i].slice;
+std::vector<Region> clean_all(std::span<const Slice> slices, std::span<const Height> heights,
+                              const Options& options, std::vector<Defect>& repairs,
+                              const Progress& progress) {
+  Reporter reporter(progress, Stage::clean, heights.size());
+  std::vector<Region> regions(heights.size());
+  std::vector<std::vector<Defect>> found(heights.size());
+  std::vector<cdt::Triangulation> memories(thread_count(options.threads));
+  for_each_index(heights.size(), options.threads, [&](std::size_t i, unsigned worker) {
+    std::vector<const Slice*> parts;
+    for (const std::uint32_t s : heights[i].slices) parts.push_back(&slices[s]);
+    regions[i] = clean(heights[i], parts, options, found[i], memories[worker]);
     reporter.add_step();
   });
   for (auto& some : found) std::ranges::move(some, std::back_inserter(repairs));
@@ -231,12 +118,10 @@ Surroundings surroundings(std::span<const SliceShape> shapes, std::size_t slab) 
 
 void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs, unsigned threads,
                 const Progress& progress) {
-  Reporter reporter(progress, Stage::smooth, regions.size() + slabs.size());
+  Reporter reporter(progress, Stage::smooth, slabs.size());
   std::vector<SliceShape> shapes(regions.size());
-  for_each_index(regions.size(), threads, [&](std::size_t i, unsigned) {
-    shapes[i] = SliceShape(regions[i]);
-    reporter.add_step();
-  });
+  for_each_index(regions.size(), threads,
+                 [&](std::size_t i, unsigned) { shapes[i] = SliceShape(regions[i]); });
   for_each_index(slabs.size(), threads, [&](std::size_t i, unsigned) {
     slabs[i] = smooth(regions[i], regions[i + 1], surroundings(shapes, i), std::move(slabs[i]));
     reporter.add_step();
@@ -244,33 +129,22 @@ void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
 }
 
 void check_enough(std::span<const Region> regions) {
-  const auto filled =
-      std::ranges::count_if(regions, [](const Region& region) { return !region.is_empty(); });
-  if (filled >= 2) return;
-  Defect defect{DefectKind::too_few_slices, 0, 0, {}, {}, {}, 0, ""};
-  if (filled == 1) {
-    const auto only =
-        std::ranges::find_if(regions, [](const Region& region) { return !region.is_empty(); });
-    defect.z = only->z;
-    defect.slice = only->slice;
-    defect.message =
-        "is the only one with an outline; a surface needs two. For a flat part, give its outline a "
-        "second time at the height where it ends";
-  } else {
-    defect.message = "no slice has an outline with an area";
-  }
-  throw InputError({defect});
+  const auto is_filled = [](const Region& region) { return !region.is_empty(); };
+  if (std::ranges::count_if(regions, is_filled) >= 2) return;
+  const auto only = std::ranges::find_if(regions, is_filled);
+  throw too_few_slices(only == regions.end() ? nullptr : &*only);
 }
 
 }  // namespace
 
 Reconstruction reconstruct(std::span<const Slice> slices, const Options& options,
                            const Progress& progress) {
-  if (auto fatal = find_not_finite(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
   std::vector<Defect> repairs;
-  const auto layers = find_layers(slices, options.label, repairs);
-  check_gaps(layers);
-  auto regions = trim(clean_all(layers, options, repairs, progress), repairs);
+  std::vector<double> z;
+  for (const Slice& slice : slices) z.push_back(slice.z);
+  const auto heights = find_heights(z, repairs);
+  auto regions = trim(clean_all(slices, heights, options, repairs, progress), repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
   auto slabs = tile_all(regions, options.threads, progress);

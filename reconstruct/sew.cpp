@@ -37,10 +37,9 @@ Sewing sew_layers(std::span<const Region> regions, std::vector<TileSet> slabs, C
 class Assembly {
  public:
   Assembly(const Sewing& sewing, Surface& surface, unsigned threads)
-      : sewing_(sewing), surface_(surface), threads_(threads) {}
+      : sewing_(sewing), surface_(surface), threads_(threads), numbers_(sewing.numbers()) {}
 
   void run() {
-    number_cut_faces();
     const std::vector<std::uint32_t> first_edges = number_edges();
     surface_.resize(vertex_count(), first_edges.back(), face_count());
     handles_.resize(3 * face_count());
@@ -89,22 +88,16 @@ class Assembly {
         visit(HalfEdge{face.layer, 3 * face.index + i}, number++);
   }
 
-  void number_cut_faces() {
-    cut_numbers_.resize(sewing_.layer_bound());
-    auto number = static_cast<std::uint32_t>(sewing_.plain_face_count());
-    for (const HalfEdge face : sewing_.cut_faces()) cut_numbers_[face.layer].push_back(number++);
-  }
-
   [[nodiscard]] std::uint32_t number(HalfEdge h) const {
     const std::uint32_t own = sewing_.face_count(h.layer);
-    const std::uint32_t face = h.face() < own
-                                   ? static_cast<std::uint32_t>(sewing_.first_face(h.layer)) + h.face()
-                                   : cut_numbers_[h.layer][h.face() - own];
-    return 3 * face + h.index % 3;
+    const std::uint64_t face = h.face() < own ? sewing_.first_face(h.layer) + h.face()
+                                              : sewing_.plain_face_count() +
+                                                    sewing_.cuts_of(h.layer)[h.face() - own];
+    return static_cast<std::uint32_t>(3 * face + h.index % 3);
   }
 
   [[nodiscard]] Surface::VertexHandle vertex(HalfEdge corner) const {
-    return Surface::VertexHandle(static_cast<int>(sewing_.final_number(sewing_.vertex(corner))));
+    return Surface::VertexHandle(static_cast<int>(numbers_.final(sewing_.vertex(corner))));
   }
 
   /// Of two half-edges the first one makes the edge.
@@ -150,7 +143,7 @@ class Assembly {
   void add_made_vertices() {
     std::uint32_t next = sewing_.plain_vertex_count();
     for (const auto vertices : {sewing_.doubled(), sewing_.midpoints()})
-      for (const SewnVertex& vertex : vertices) set_vertex(next++, vertex.place, vertex.origin);
+      for (const SurfaceVertex& vertex : vertices) set_vertex(next++, vertex.place, vertex.origin);
   }
 
   void add_edges(std::uint32_t group, std::uint32_t first_edge) {
@@ -207,7 +200,7 @@ class Assembly {
   const Sewing& sewing_;
   Surface& surface_;
   unsigned threads_;
-  std::vector<std::vector<std::uint32_t>> cut_numbers_;  // of each layer's cut faces
+  VertexNumbers numbers_;
   std::vector<Handle> handles_;                          // of each half-edge, by its number
   std::vector<std::vector<Handle>> rims_;                // of each group
 };

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -20,7 +21,7 @@ constexpr std::uint32_t none = Origin::none;
 // Mates are coded by their number in their layer and the step to that layer.
 constexpr std::uint32_t in_layer_below = 0x8000'0000;
 constexpr std::uint32_t in_layer_above = 0x4000'0000;
-constexpr std::uint32_t number_bits = 0x3fff'ffff;
+constexpr std::uint32_t number_bits = VertexNumbers::bound - 1;
 
 /// For r and s in a plane with the line pq: whether both are on the same side of it.
 bool on_same_side(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
@@ -86,24 +87,17 @@ void Sewing::join(HalfEdge a, HalfEdge b) {
 std::uint32_t Sewing::vertex(HalfEdge corner) const {
   const State& state = at(corner.layer);
   const std::uint32_t node = state.node(corner.index);
-  if ((node & is_doubled) != 0) return node;
+  if ((node & VertexNumbers::doubled_mark) != 0) return node;
   if (node < state.lower_count) return state.lower + node;
   if (node < state.contour_count) return state.upper + (node - state.lower_count);
   return state.inner + (node - state.contour_count);
 }
 
-std::uint32_t Sewing::final_number(std::uint32_t vertex) const {
-  if ((vertex & is_doubled) == 0) return vertex;
-  const bool is_middle = (vertex & is_midpoint) == is_midpoint;
-  return vertex_count_ + (vertex & number_bits) +
-         (is_middle ? static_cast<std::uint32_t>(doubled_.size()) : 0);
-}
-
 Vec3 Sewing::place(HalfEdge corner) const {
   const State& state = at(corner.layer);
   const std::uint32_t node = state.node(corner.index);
-  if ((node & is_midpoint) == is_midpoint) return midpoints_[node & number_bits].place;
-  if ((node & is_doubled) != 0) return doubled_[node & number_bits].place;
+  if ((node & VertexNumbers::midpoint_mark) == VertexNumbers::midpoint_mark) return midpoints_[node & number_bits].place;
+  if ((node & VertexNumbers::doubled_mark) != 0) return doubled_[node & number_bits].place;
   return place_of(*state.layer.lower, *state.layer.upper, state.layer.tiles.inner, node);
 }
 
@@ -123,6 +117,8 @@ void Sewing::add(std::vector<Layer> layers, unsigned threads) {
 
 void Sewing::finish(unsigned threads) {
   settle(layer_bound() + 1, threads);
+  split_double_edges(top_crowds_);
+  final_bound_ = layer_bound();
 }
 
 /// Numbers the vertices and faces of a new layer.
@@ -144,7 +140,8 @@ void Sewing::number(State& state) {
     throw Error("more vertices than can be numbered");
 }
 
-/// Joins the layers to one another below `bound`, and makes final what is below the last of them.
+/// Joins layers below `bound` to those under them. Then it is known of all but the last one which
+/// vertices are to be doubled, and where double edges are left.
 void Sewing::settle(std::uint32_t bound, unsigned threads) {
   const std::uint32_t first = joined_bound_;
   std::vector<Found> found(bound - first);
@@ -153,13 +150,14 @@ void Sewing::settle(std::uint32_t bound, unsigned threads) {
     pair_at(layer, found[i]);
     find_fans(layer, found[i]);
   });
-  for (Found& some : found) {
-    for (Fan& fan : some.fans) at(fan.front().layer).fans.push_back(std::move(fan));
-    for (Crowd& crowd : some.crowds)
-      at(crowd.half_edges.front().layer).crowds.push_back(std::move(crowd));
+  for (std::uint32_t i = 0; i < found.size(); ++i) {
+    for (Fan& fan : found[i].fans) at(fan.front().layer).fans.push_back(std::move(fan));
+    auto& crowds = has(first + i) ? at(first + i).crowds : top_crowds_;
+    std::ranges::move(found[i].crowds, std::back_inserter(crowds));
   }
   joined_bound_ = bound;
-  for (; final_bound_ + 1 < bound; ++final_bound_) finalise(final_bound_);
+  for (; settled_bound_ + 1 < bound; ++settled_bound_) separate(settled_bound_);
+  if (settled_bound_ > 0) final_bound_ = settled_bound_ - 1;
 }
 
 void Sewing::drop_below(std::uint32_t layer) {
@@ -233,7 +231,7 @@ void Sewing::pair_at(std::uint32_t layer, Found& found) {
   std::vector<Ended> all;
   const auto gather = [&](std::uint32_t from, std::span<const std::uint32_t> rim) {
     for (const std::uint32_t index : rim) {
-      const HalfEdge h = latest({from, index});
+      const HalfEdge h{from, index};
       const auto [low, high] = std::minmax({vertex(h), vertex(next(h))});
       all.push_back({low, high, h});
     }
@@ -250,7 +248,7 @@ void Sewing::pair_at(std::uint32_t layer, Found& found) {
 /// The usual case: each point has one contour edge from it, with a tile below and one above.
 /// Returns whether that was so.
 bool Sewing::pair_contours_at(std::uint32_t layer) {
-  if (layer == 0 || !has(layer) || !moved_.empty()) return false;
+  if (layer == 0 || !has(layer)) return false;
   const State& below = at(layer - 1);
   const State& above = at(layer);
   if (below.upper_rim.size() != above.lower_rim.size()) return false;
@@ -398,18 +396,17 @@ void Sewing::add_fans(std::span<const HalfEdge> corners, Found& found) const {
   }
 }
 
-/// Doubles the vertices whose further fans begin in a layer, and cuts its double edges.
-void Sewing::finalise(std::uint32_t layer) {
+/// Doubles the vertices whose further fans begin in a layer; then cuts the double edges in it and in
+/// the slice below. So the layer below is final.
+void Sewing::separate(std::uint32_t layer) {
   State& state = at(layer);
   std::ranges::sort(state.fans, {}, [](const Fan& fan) { return fan.front(); });
   for (const Fan& fan : state.fans) {
-    const auto number = static_cast<std::uint32_t>(doubled_.size()) | is_doubled;
+    const auto number = static_cast<std::uint32_t>(doubled_.size()) | VertexNumbers::doubled_mark;
     doubled_.push_back({place(fan.front()), origin(fan.front())});
     for (const HalfEdge corner : fan) set_node(corner, number);
   }
-  std::ranges::sort(state.crowds, {},
-                    [](const Crowd& crowd) { return std::pair(crowd.low, crowd.high); });
-  for (const Crowd& crowd : state.crowds) split_double_edges(crowd);
+  split_double_edges(state.crowds);
   std::erase_if(moved_, [&](const auto& move) { return move.first.layer < layer; });
   state.fans = {};
   state.crowds = {};
@@ -439,6 +436,12 @@ HalfEdge Sewing::latest(HalfEdge h) const {
   return h;
 }
 
+void Sewing::split_double_edges(std::vector<Crowd>& crowds) {
+  std::ranges::sort(crowds, {},
+                    [](const Crowd& crowd) { return std::pair(crowd.low, crowd.high); });
+  for (const Crowd& crowd : crowds) split_double_edges(crowd);
+}
+
 /// Where edges at one place still join the same two vertices, all that are there get midpoints,
 /// so that they go on touching corner by corner.
 void Sewing::split_double_edges(const Crowd& crowd) {
@@ -458,7 +461,7 @@ void Sewing::split_edge(HalfEdge h) {
   const HalfEdge g = mate(h);
   const Vec3 p = place(h);
   const Vec3 q = place(next(h));
-  const auto middle = static_cast<std::uint32_t>(midpoints_.size()) | is_midpoint;
+  const auto middle = static_cast<std::uint32_t>(midpoints_.size()) | VertexNumbers::midpoint_mark;
   midpoints_.push_back(
       {{p[0] + (q[0] - p[0]) / 2, p[1] + (q[1] - p[1]) / 2, p[2] + (q[2] - p[2]) / 2},
        {VertexKind::steiner, at(h.layer).layer.slice, Origin::none, Origin::none}});
@@ -479,10 +482,9 @@ HalfEdge Sewing::cut(HalfEdge h, std::uint32_t middle) {
   const std::uint32_t opposite = state.node(prev(h).index);
   tiles.push_back({{middle, from, opposite}, tiles[h.face()].kind});
   state.mates.resize(3 * tiles.size(), none);
+  state.cuts.push_back(static_cast<std::uint32_t>(cut_faces_.size()));
   cut_faces_.push_back({h.layer, f});
   if (const HalfEdge beyond = mate(n); !beyond.is_none()) join({h.layer, 3 * f + 1}, beyond);
-  if (opposite < state.corner_counts.size()) ++state.corner_counts[opposite];
-  if (from < state.first_corners.size()) state.first_corners[from] = 3 * f + 1;
   set_node(n, middle);
   moved_[n] = {h.layer, 3 * f + 1};
   join(n, {h.layer, 3 * f + 2});

@@ -11,6 +11,7 @@
 
 #include "reconstruct/origin.h"
 #include "reconstruct/region.h"
+#include "reconstruct/surface_sink.h"
 #include "reconstruct/tiles.h"
 
 namespace loft {
@@ -34,18 +35,12 @@ struct Layer {
   std::uint32_t slice;  ///< what its inner vertices will say
 };
 
-/// A vertex that sewing made.
-struct SewnVertex {
-  Vec3 place;
-  Origin origin;
-};
-
 /// Sews slabs and caps together, from the lowest upwards, and takes apart what only touches
 /// (design, section 3, step 8): at an edge with more than two faces each is joined to its neighbour
 /// across the solid, vertices are doubled until each has one fan of faces, and edges that still
 /// join the same two vertices get midpoints of their own.
 ///
-/// A layer is final when the next one has been added. Those that are final can be dropped: what is
+/// A layer is final when the next two have been added. Those that are final can be dropped: what is
 /// in memory are the layers that are not, and the vertices and faces made by sewing, which are few.
 ///
 /// Vertices are numbered: slice by slice, with the inner vertices of a slab behind the slice below
@@ -81,19 +76,24 @@ class Sewing {
   /// The vertices of slices and slabs, of all layers added.
   [[nodiscard]] std::uint32_t plain_vertex_count() const { return vertex_count_; }
   [[nodiscard]] std::uint64_t plain_face_count() const { return face_count_; }
-  [[nodiscard]] std::span<const SewnVertex> doubled() const { return doubled_; }
-  [[nodiscard]] std::span<const SewnVertex> midpoints() const { return midpoints_; }
+  [[nodiscard]] std::span<const SurfaceVertex> doubled() const { return doubled_; }
+  [[nodiscard]] std::span<const SurfaceVertex> midpoints() const { return midpoints_; }
   /// The faces that midpoints cut off, in their order: by the layer they belong to and their number
   /// there, which is face_count() or more.
   [[nodiscard]] std::span<const HalfEdge> cut_faces() const { return cut_faces_; }
+  /// The places in cut_faces() of those that belong to a layer.
+  [[nodiscard]] std::span<const std::uint32_t> cuts_of(std::uint32_t layer) const {
+    return at(layer).cuts;
+  }
 
-  /// A corner of a final layer as vertex number: of doubled vertices the highest bit is set, of
-  /// midpoints the two highest, and the rest counts them; see final_number().
+  /// The vertex number of a corner of a final layer, as in VertexNumbers.
   [[nodiscard]] std::uint32_t vertex(HalfEdge corner) const;
-  static constexpr std::uint32_t is_doubled = 0x8000'0000;
-  static constexpr std::uint32_t is_midpoint = 0xc000'0000;
-  /// The vertex number, once all layers are final.
-  [[nodiscard]] std::uint32_t final_number(std::uint32_t vertex) const;
+  /// Where a corner of a final layer is.
+  [[nodiscard]] Vec3 place(HalfEdge corner) const;
+  /// What is known of vertex numbers once all layers are final.
+  [[nodiscard]] VertexNumbers numbers() const {
+    return {vertex_count_, static_cast<std::uint32_t>(doubled_.size())};
+  }
 
   /// The next half-edge around the same face.
   [[nodiscard]] static std::uint32_t next(std::uint32_t h) { return h % 3 == 2 ? h - 2 : h + 1; }
@@ -125,6 +125,7 @@ class Sewing {
     std::vector<std::uint32_t> corner_counts;  // of each node
     std::vector<std::uint32_t> first_corners;  // of each node, or none
     std::vector<Crowd> crowds;
+    std::vector<std::uint32_t> cuts;  // places of its cut faces in cut_faces_
     std::vector<Fan> fans;  // those that begin here and need a vertex of their own
 
     [[nodiscard]] std::uint32_t node(std::uint32_t half_edge) const {
@@ -148,7 +149,6 @@ class Sewing {
   }
 
   [[nodiscard]] static HalfEdge prev(HalfEdge h) { return next(next(h)); }
-  [[nodiscard]] Vec3 place(HalfEdge corner) const;
   [[nodiscard]] Vec3 apex(HalfEdge h) const { return place(prev(h)); }
   [[nodiscard]] Origin origin(HalfEdge corner) const;
   void set_node(HalfEdge corner, std::uint32_t node);
@@ -157,7 +157,7 @@ class Sewing {
 
   void number(State& state);
   void settle(std::uint32_t bound, unsigned threads);
-  void finalise(std::uint32_t layer);
+  void separate(std::uint32_t layer);
 
   void pair_within(std::uint32_t layer);
   static void sort_out(State& state, std::vector<std::uint32_t>& ends);
@@ -173,6 +173,7 @@ class Sewing {
   void add_fans(std::span<const HalfEdge> corners, Found& found) const;
 
   [[nodiscard]] HalfEdge latest(HalfEdge h) const;
+  void split_double_edges(std::vector<Crowd>& crowds);
   void split_double_edges(const Crowd& crowd);
   void split_edge(HalfEdge h);
   [[nodiscard]] HalfEdge cut(HalfEdge h, std::uint32_t middle);
@@ -180,11 +181,13 @@ class Sewing {
   std::deque<State> layers_;
   std::uint32_t first_layer_ = 0;
   std::uint32_t joined_bound_ = 0;  // layers below are joined to the one under them
+  std::uint32_t settled_bound_ = 0;  // layers below have doubled vertices and cut edges
   std::uint32_t final_bound_ = 0;
+  std::vector<Crowd> top_crowds_;  // in the slice above the last layer
   std::uint32_t vertex_count_ = 0;
   std::uint64_t face_count_ = 0;
-  std::vector<SewnVertex> doubled_;
-  std::vector<SewnVertex> midpoints_;
+  std::vector<SurfaceVertex> doubled_;
+  std::vector<SurfaceVertex> midpoints_;
   std::vector<HalfEdge> cut_faces_;
   std::map<HalfEdge, HalfEdge> moved_;  // half-edges that cuts gave another number
 };

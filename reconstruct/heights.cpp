@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/heights.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "reconstruct/out_of_core.h"
+
+namespace loft {
+
+std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index) {
+  std::vector<Defect> found;
+  const auto note = [&](std::optional<std::uint32_t> contour, std::optional<std::uint32_t> point,
+                        const char* message) {
+    found.push_back(
+        {DefectKind::not_finite, slice.z, index, contour, point, {}, 0, message});
+  };
+  if (!(std::abs(slice.z) <= cdt::Triangulation::largest_coordinate))
+    note({}, {}, "the height is not a finite number below 1e75; correct it or leave the slice out");
+  for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
+    const auto& points = slice.contours[c].points;
+    for (std::uint32_t p = 0; p < points.size(); ++p)
+      if (!cdt::Triangulation::is_usable(points[p].x) ||
+          !cdt::Triangulation::is_usable(points[p].y))
+        note(c, p,
+             "a coordinate is not finite, beyond 1e75, or below 1e-50 without being 0; "
+             "correct the point or leave it out");
+  }
+  return found;
+}
+
+namespace {
+
+/// Between slices there must be room for heights that are different numbers.
+void check_gaps(std::span<const Height> heights) {
+  constexpr double least_gap = 0x1p-40;  // relative to the height
+  std::vector<Defect> found;
+  for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
+    const double height = std::max(std::abs(heights[i].z), std::abs(heights[i + 1].z));
+    if (heights[i + 1].z - heights[i].z < least_gap * height)
+      found.push_back(
+          {DefectKind::slices_too_near,
+           heights[i + 1].z,
+           heights[i + 1].slices.front(),
+           {},
+           {},
+           {},
+           0,
+           "is nearer to slice " + std::to_string(heights[i].slices.front()) +
+               " than rounding allows at that height; leave one out, or give heights from "
+               "an origin nearby"});
+  }
+  if (!found.empty()) throw InputError(std::move(found));
+}
+
+}  // namespace
+
+std::vector<Height> find_heights(std::span<const double> z, std::vector<Defect>& repairs) {
+  std::vector<std::uint32_t> order(z.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return z[i]; });
+  std::vector<Height> heights;
+  for (const std::uint32_t s : order) {
+    if (heights.empty() || heights.back().z != z[s]) {
+      heights.push_back({z[s], {s}});
+      continue;
+    }
+    repairs.push_back({DefectKind::merged_slices,
+                       z[s],
+                       s,
+                       {},
+                       {},
+                       {},
+                       0,
+                       "has the same height as slice " +
+                           std::to_string(heights.back().slices.front()) + "; merged into it"});
+    heights.back().slices.push_back(s);
+  }
+  check_gaps(heights);
+  return heights;
+}
+
+Region clean(const Height& height, std::span<const Slice* const> parts, const Options& options,
+             std::vector<Defect>& repairs, cdt::Triangulation& memory) {
+  std::vector<ContourSource> contours;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const auto& all = parts[i]->contours;
+    for (std::uint32_t c = 0; c < all.size(); ++c)
+      if (!options.label || all[c].label == *options.label)
+        contours.push_back({all[c].points, height.slices[i], c});
+  }
+  Region region = clean(contours, height.z, options.fill, repairs, memory);
+  region.slice = height.slices.front();
+  return region;
+}
+
+Defect empty_slice(const Region& region) {
+  return {DefectKind::empty_slice,
+          region.z,
+          region.slice,
+          {},
+          {},
+          {},
+          0,
+          "is empty: the shape ends below it and starts again above; remove the slice if it should "
+          "go on"};
+}
+
+Defect unlinked_slices(const Region& lower, const Region& upper) {
+  return {DefectKind::unlinked_slices,
+          lower.z,
+          lower.slice,
+          {},
+          {},
+          {},
+          0,
+          "no valid surface was found from here to slice " + std::to_string(upper.slice) +
+              ", whose contours nearly coincide with these; the shape is interrupted there. Make "
+              "the contours equal or more different"};
+}
+
+InputError too_few_slices(const Region* only) {
+  Defect defect{DefectKind::too_few_slices, 0, 0, {}, {}, {}, 0, ""};
+  if (only != nullptr) {
+    defect.z = only->z;
+    defect.slice = only->slice;
+    defect.message =
+        "is the only one with an outline; a surface needs two. For a flat part, give its outline a "
+        "second time at the height where it ends";
+  } else {
+    defect.message = "no slice has an outline with an area";
+  }
+  return InputError(std::vector{defect});
+}
+
+Region beyond(const Region& end, const Region& before) {
+  Region region;
+  region.z = end.z + (end.z - before.z);
+  region.slice = Origin::none;
+  region.loop_starts = {0};
+  return region;
+}
+
+}  // namespace loft

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cdt/triangulation.h"
+#include "reconstruct/defect.h"
+#include "reconstruct/options.h"
+#include "reconstruct/region.h"
+#include "reconstruct/slice.h"
+
+namespace loft {
+
+/// All slices of one height, by their numbers in the input; the first one stands for it.
+struct Height {
+  double z;
+  std::vector<std::uint32_t> slices;
+};
+
+/// The heights of slices, ascending; `z` are theirs, in the order of the input. Notes those that
+/// are merged. Throws InputError where two are nearer than rounding allows.
+[[nodiscard]] std::vector<Height> find_heights(std::span<const double> z,
+                                               std::vector<Defect>& repairs);
+
+/// Cleans what is at a height: the contours with the label wanted, of the slices `parts`, which are
+/// those that `height` names.
+[[nodiscard]] Region clean(const Height& height, std::span<const Slice* const> parts,
+                           const Options& options, std::vector<Defect>& repairs,
+                           cdt::Triangulation& memory);
+
+/// The warning that a region between others is empty.
+[[nodiscard]] Defect empty_slice(const Region& region);
+/// The warning that no tiles were found that link two regions.
+[[nodiscard]] Defect unlinked_slices(const Region& lower, const Region& upper);
+/// What is missing where fewer than two regions have an area: none, if `only` is null.
+[[nodiscard]] InputError too_few_slices(const Region* only);
+
+/// For Cap::dome: an empty region one gap beyond the end of a stack, into which it rounds off.
+/// `before` is the region next to the last one.
+[[nodiscard]] Region beyond(const Region& end, const Region& before);
+
+}  // namespace loft

@@ -1,0 +1,323 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/out_of_core.h"
+
+#include <algorithm>
+#include <deque>
+#include <iterator>
+#include <span>
+#include <utility>
+
+#include "reconstruct/caps.h"
+#include "reconstruct/heights.h"
+#include "reconstruct/parallel.h"
+#include "reconstruct/reconstruct.h"
+#include "reconstruct/sewing.h"
+#include "reconstruct/smooth.h"
+#include "reconstruct/survey.h"
+#include "reconstruct/tiles.h"
+
+namespace loft {
+
+namespace {
+
+/// Heights are worked on in groups of about so many points: enough to keep many threads busy, few
+/// enough to take little memory.
+constexpr std::size_t group_size = std::size_t{1} << 17U;
+
+/// The regions of a stack in the order of their heights, without the empty ones at both ends; those
+/// that are no longer needed are forgotten.
+class Regions {
+ public:
+  explicit Regions(Cap cap) : cap_(cap) {}
+
+  void add(Region region) {
+    if (!region.is_empty()) {
+      for (Region& empty : std::exchange(empty_, {})) append(std::move(empty));
+      append(std::move(region));
+      ++filled_count_;
+    } else if (bound() > 0) {
+      empty_.push_back(std::move(region));
+    }
+  }
+
+  /// No more come.
+  void end() {
+    if (filled_count_ < 2) throw too_few_slices(filled_count_ == 0 ? nullptr : &regions_.front());
+    if (cap_ == Cap::dome)
+      regions_.push_back(beyond(regions_.back(), regions_[regions_.size() - 2]));
+  }
+
+  [[nodiscard]] std::size_t bound() const { return first_ + regions_.size(); }
+  [[nodiscard]] bool has(std::size_t i) const { return i >= first_ && i < bound(); }
+  /// Stays where it is until it is dropped.
+  [[nodiscard]] const Region& operator[](std::size_t i) const { return regions_[i - first_]; }
+  void drop_below(std::size_t i) {
+    for (; first_ < i; ++first_) regions_.pop_front();
+  }
+
+  /// Warnings of those that are empty.
+  [[nodiscard]] const std::vector<Defect>& repairs() const { return repairs_; }
+
+ private:
+  void append(Region region) {
+    if (region.is_empty()) repairs_.push_back(empty_slice(region));
+    regions_.push_back(std::move(region));
+    if (cap_ == Cap::dome && bound() == 2 && !has_low_end_) {
+      has_low_end_ = true;
+      regions_.push_front(beyond(regions_[0], regions_[1]));
+    }
+  }
+
+  Cap cap_;
+  bool has_low_end_ = false;
+  std::deque<Region> regions_;
+  std::size_t first_ = 0;
+  std::size_t filled_count_ = 0;
+  std::vector<Region> empty_;  // above the last filled one
+  std::vector<Defect> repairs_;
+};
+
+/// The lines from heights to faces, group by group.
+class Work {
+ public:
+  Work(const SliceSource& source, const Options& options, SurfaceSink& sink)
+      : source_(source),
+        options_(options),
+        sink_(sink),
+        regions_(options.cap),
+        memories_(thread_count(options.threads)),
+        workspaces_(thread_count(options.threads)) {}
+
+  OutOfCoreReport run(const Progress& progress) {
+    std::vector<double> z;
+    for (const SliceSource::Entry& slice : source_.slices) z.push_back(slice.z);
+    const std::vector<Height> heights = find_heights(z, repairs_);
+    const auto tell = [&](std::size_t done) {
+      const double share =
+          heights.empty() ? 1 : static_cast<double>(done) / static_cast<double>(heights.size());
+      if (progress && !progress(Stage::tile, share)) throw Cancelled();
+    };
+    tell(0);
+    for (std::size_t done = 0; done < heights.size();) {
+      const auto group = next_group(std::span(heights).subspan(done));
+      for (Region& region : clean_group(group)) regions_.add(std::move(region));
+      make_slabs(false);
+      done += group.size();
+      tell(done);
+    }
+    regions_.end();
+    make_slabs(true);
+    finish();
+    return report();
+  }
+
+ private:
+  /// At least as many heights as there are threads, if there are.
+  [[nodiscard]] std::span<const Height> next_group(std::span<const Height> heights) const {
+    std::size_t points = 0;
+    std::size_t count = 0;
+    for (; count < heights.size() && (points < group_size || count < memories_.size()); ++count)
+      for (const std::uint32_t s : heights[count].slices) points += source_.slices[s].points;
+    return heights.first(count);
+  }
+
+  [[nodiscard]] std::vector<Region> clean_group(std::span<const Height> heights) {
+    std::vector<Region> cleaned(heights.size());
+    std::vector<std::vector<Defect>> found(heights.size());
+    for_each_index(heights.size(), options_.threads, [&](std::size_t i, unsigned worker) {
+      std::vector<Slice> slices;
+      std::vector<const Slice*> parts;
+      slices.reserve(heights[i].slices.size());
+      for (const std::uint32_t s : heights[i].slices) {
+        slices.push_back(source_.read(s));
+        if (auto fatal = find_unusable(slices.back(), s); !fatal.empty())
+          throw InputError(std::move(fatal));
+        parts.push_back(&slices.back());
+      }
+      cleaned[i] = clean(heights[i], parts, options_, found[i], memories_[worker]);
+    });
+    for (auto& some : found) std::ranges::move(some, std::back_inserter(repairs_));
+    return cleaned;
+  }
+
+  /// Makes the slabs of which everything is known that they depend on.
+  void make_slabs(bool is_end) {
+    add_shapes();
+    const std::size_t ahead = options_.smooth && !is_end ? 2 : 1;  // slices that a slab looks at
+    const std::size_t first = slab_bound_;
+    if (regions_.bound() < first + 1 + ahead) return;
+    slab_bound_ = regions_.bound() - ahead;
+    std::vector<TileSet> slabs(slab_bound_ - first);
+    for_each_index(slabs.size(), options_.threads, [&](std::size_t i, unsigned worker) {
+      slabs[i] = make_slab(first + i, workspaces_[worker]);
+    });
+
+    std::vector<Layer> layers;
+    if (first == 0 && options_.cap == Cap::flat) layers.push_back(bottom_cap(regions_[0]));
+    for (std::size_t i = 0; i < slabs.size(); ++i) {
+      const Region& lower = regions_[first + i];
+      const Region& upper = regions_[first + i + 1];
+      if (!slabs[i].is_linked) unlinked_.push_back(unlinked_slices(lower, upper));
+      layers.push_back({&lower, &upper, std::move(slabs[i]), static_cast<std::uint32_t>(first + i),
+                        lower.slice});
+    }
+    sewing_.add(std::move(layers), options_.threads);
+    pass_on();
+  }
+
+  [[nodiscard]] TileSet make_slab(std::size_t i, TileWorkspace& workspace) const {
+    TileSet tiles = tile(regions_[i], regions_[i + 1], workspace);
+    if (!options_.smooth) return tiles;
+    Surroundings around{};
+    for (std::size_t k = 0; k < around.size(); ++k)
+      if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_[i + k - 1 - first_shape_];
+    return smooth(regions_[i], regions_[i + 1], around, std::move(tiles));
+  }
+
+  /// What bending wants to know of the regions that are new.
+  void add_shapes() {
+    if (!options_.smooth || regions_.bound() < 2) return;  // then the first one is known
+    const std::size_t known = first_shape_ + shapes_.size();
+    shapes_.resize(regions_.bound() - first_shape_);
+    for_each_index(regions_.bound() - known, options_.threads, [&](std::size_t i, unsigned) {
+      shapes_[known + i - first_shape_] = SliceShape(regions_[known + i]);
+    });
+  }
+
+  void finish() {
+    if (options_.cap == Cap::flat) {
+      const std::size_t last = slab_bound_ - 1;
+      std::vector<Layer> cap;
+      cap.push_back(top_cap(regions_[last + 1], static_cast<std::uint32_t>(last),
+                            regions_[last].slice));
+      sewing_.add(std::move(cap), options_.threads);
+    }
+    sewing_.finish(options_.threads);
+    pass_on();
+    pass_on_vertices(sewing_.doubled());
+    pass_on_vertices(sewing_.midpoints());
+    for (const Cut& cut : cuts_) survey_.add_face(cut.places);
+    std::vector<SurfaceFace> faces;
+    for (const Cut& cut : cuts_) faces.push_back(cut.face);
+    sink_.add_faces(faces);
+    sink_.end(sewing_.numbers());
+  }
+
+  /// Passes on the layers that have become final, and forgets what nobody needs any more.
+  void pass_on() {
+    for (; passed_bound_ < sewing_.final_bound(); ++passed_bound_) {
+      pass_on_vertices_of(passed_bound_);
+      pass_on_faces_of(passed_bound_);
+      survey_.connect(sewing_, passed_bound_);
+    }
+    sewing_.drop_below(passed_bound_);
+    // Layers begin with the cap; a slab looks at the slice before its own.
+    const std::size_t cap = options_.cap == Cap::flat ? 1 : 0;
+    const std::size_t sewn = passed_bound_ - std::min<std::size_t>(cap, passed_bound_);
+    const std::size_t needed = std::min(sewn, slab_bound_ - std::min<std::size_t>(1, slab_bound_));
+    regions_.drop_below(needed);
+    for (; options_.smooth && first_shape_ < needed; ++first_shape_) shapes_.pop_front();
+  }
+
+  void pass_on_vertices(std::span<const SurfaceVertex> vertices) {
+    survey_.add_vertices(vertices);
+    sink_.add_vertices(vertices);
+  }
+
+  /// Those of the slice below a layer and inside it; above the last layer also those there.
+  void pass_on_vertices_of(std::uint32_t number) {
+    const Layer& layer = sewing_.layer(number);
+    vertices_.clear();
+    add_slice(*layer.lower);
+    for (const InnerVertex& inner : layer.tiles.inner)
+      vertices_.push_back(
+          {inner.place, {inner.kind, layer.slice, Origin::none, Origin::none}});
+    const bool is_last = sewing_.final_bound() == sewing_.layer_bound() &&
+                         number + 1 == sewing_.layer_bound();
+    if (is_last) add_slice(*layer.upper);
+    pass_on_vertices(vertices_);
+  }
+
+  void add_slice(const Region& region) {
+    for (std::size_t i = 0; i < region.points.size(); ++i)
+      vertices_.push_back(
+          {{region.points[i].x, region.points[i].y, region.z}, region.origins[i]});
+  }
+
+  void pass_on_faces_of(std::uint32_t number) {
+    faces_.clear();
+    for (std::uint32_t f = 0; f < sewing_.face_count(number); ++f) {
+      faces_.push_back(face({number, 3 * f}));
+      survey_.add_face(places({number, 3 * f}));
+    }
+    sink_.add_faces(faces_);
+    const auto cuts = sewing_.cuts_of(number);
+    for (std::uint32_t i = 0; i < cuts.size(); ++i) {
+      const HalfEdge first{number, 3 * (sewing_.face_count(number) + i)};
+      cuts_.resize(std::max<std::size_t>(cuts_.size(), cuts[i] + 1));
+      cuts_[cuts[i]] = {face(first), places(first)};
+    }
+  }
+
+  /// The corners of a face as an OpenMesh mesh lists them: the first one last.
+  [[nodiscard]] static std::array<HalfEdge, 3> corners(HalfEdge first) {
+    const HalfEdge second = Sewing::next(first);
+    return {second, Sewing::next(second), first};
+  }
+
+  [[nodiscard]] SurfaceFace face(HalfEdge first) const {
+    const auto [a, b, c] = corners(first);
+    const Layer& layer = sewing_.layer(first.layer);
+    return {{sewing_.vertex(a), sewing_.vertex(b), sewing_.vertex(c)},
+            layer.tiles.tiles[first.face()].kind,
+            layer.slab};
+  }
+
+  [[nodiscard]] std::array<Vec3, 3> places(HalfEdge first) const {
+    const auto [a, b, c] = corners(first);
+    return {sewing_.place(a), sewing_.place(b), sewing_.place(c)};
+  }
+
+  [[nodiscard]] OutOfCoreReport report() {
+    std::vector<Defect> repairs = std::move(repairs_);
+    std::ranges::copy(regions_.repairs(), std::back_inserter(repairs));
+    std::ranges::move(unlinked_, std::back_inserter(repairs));
+    std::ranges::stable_sort(repairs, {}, &Defect::z);
+    return {std::move(repairs), survey_.measures(), survey_.vertices_of_kind()};
+  }
+
+  /// A face that a midpoint cut off: it comes behind all others.
+  struct Cut {
+    SurfaceFace face;
+    std::array<Vec3, 3> places;
+  };
+
+  const SliceSource& source_;
+  const Options& options_;
+  SurfaceSink& sink_;
+  Regions regions_;
+  std::deque<SliceShape> shapes_;  // of the regions from first_shape_ on, if they are asked for
+  std::size_t first_shape_ = 0;
+  std::size_t slab_bound_ = 0;  // slabs below are made
+  Sewing sewing_;
+  std::uint32_t passed_bound_ = 0;  // layers below are passed on
+  Survey survey_;
+  std::vector<Cut> cuts_;
+  std::vector<Defect> repairs_;
+  std::vector<Defect> unlinked_;
+
+  // Memory that is used again.
+  std::vector<cdt::Triangulation> memories_;
+  std::vector<TileWorkspace> workspaces_;
+  std::vector<SurfaceVertex> vertices_;
+  std::vector<SurfaceFace> faces_;
+};
+
+}  // namespace
+
+OutOfCoreReport reconstruct_out_of_core(const SliceSource& source, const Options& options,
+                                        SurfaceSink& sink, const Progress& progress) {
+  return Work(source, options, sink).run(progress);
+}
+
+}  // namespace loft

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/survey.h"
+
+namespace loft {
+
+void Survey::add_vertices(std::span<const SurfaceVertex> vertices) {
+  measures_.vertices += vertices.size();
+  for (const SurfaceVertex& vertex : vertices)
+    ++kinds_[static_cast<std::size_t>(vertex.origin.kind)];
+}
+
+void Survey::add_face(const std::array<Vec3, 3>& corners) {
+  ++measures_.faces;
+  sum_.add(corners[0], corners[1], corners[2]);
+}
+
+void Survey::connect(const Sewing& sewing, std::uint32_t layer) {
+  const auto face_count = sewing.layer(layer).tiles.tiles.size();
+  DisjointSets faces(face_count);
+  for (std::uint32_t h = 0; h < 3 * face_count; ++h) {
+    const HalfEdge mate = sewing.mate({layer, h});
+    rim_count_ += mate.is_none() ? 1U : 0U;
+    if (mate.layer == layer) faces.unite(h / 3, mate.face());
+  }
+  side_count_ += 3 * face_count;
+
+  std::vector<std::uint32_t> part(face_count);
+  for (std::uint32_t f = 0; f < face_count; ++f)
+    part[f] = faces.find(f) == f ? parts_.add() : part[faces.find(f)];
+  for (std::uint32_t h = 0; h < 3 * face_count; ++h) {
+    const HalfEdge mate = sewing.mate({layer, h});
+    if (!mate.is_none() && mate.layer < layer) parts_.unite(part[h / 3], part_[mate.face()]);
+  }
+  part_ = std::move(part);
+}
+
+Measures Survey::measures() {
+  measures_.edges = (side_count_ + rim_count_) / 2;
+  measures_.components = parts_.count();
+  measures_.genus = genus(measures_);
+  measures_.area = sum_.area();
+  measures_.volume = sum_.volume();
+  return measures_;
+}
+
+}  // namespace loft
