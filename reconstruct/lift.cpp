@@ -38,7 +38,10 @@ Lift::Lift(Slab& slab)
       lower_count_(static_cast<std::uint32_t>(slab.lower().points.size())) {
   decide_columns();
   lift_crossings();
-  for (int round = 0; round < most_rounds && insert(find_chords()); ++round) {
+  for (int round = 0; round < most_rounds && !is_complete_; ++round) {
+    const std::vector<Steiner> chords = find_chords();
+    is_complete_ = chords.empty();
+    if (!insert(chords)) break;
   }
   insert(find_coarse_ends());
 }

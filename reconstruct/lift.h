@@ -23,12 +23,14 @@ struct InnerVertex {
 ///
 /// Nodes, the vertices of the tiles, are numbered: first the points of the lower region, then
 /// those of the upper one, then the inner vertices. After lifting no sheet triangle touches a slice
-/// plane except in contour vertices and contour edges of that slice.
+/// plane except in contour vertices and contour edges of that slice, if is_complete().
 class Lift {
  public:
   /// Lifts; inserts Steiner vertices into the slab's overlay.
   explicit Lift(Slab& slab);
 
+  /// False where a sheet is so thin, a few roundings, that there is no place for a vertex in it.
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
   /// The node at from(corner), seen from the sheet triangle left of it.
   [[nodiscard]] std::uint32_t node(cdt::EdgeId corner) const;
   /// The node of an overlay vertex beside which there is no sheet.
@@ -79,6 +81,7 @@ class Lift {
   Slab& slab_;
   const cdt::Triangulation& mesh_;
   std::uint32_t lower_count_;
+  bool is_complete_ = false;
   std::vector<InnerVertex> inner_;
   std::vector<std::uint32_t> inner_index_;  // of each overlay vertex, or Origin::none
   std::vector<cdt::VertexId> columns_;      // in the order of their places

@@ -247,6 +247,7 @@ TileSet tile(const Region& lower, const Region& upper) {
     Slab slab(lower, upper, {step * std::cos(turn), step * std::sin(turn)});
     if (!is_end && !slab.is_exact()) continue;
     const Lift lift(slab);
+    if (!is_end && !lift.is_complete()) continue;
     Tiling tiling(slab, lift);
     TileSet tiles = tiling.run();
     if (is_end) return tiles;
