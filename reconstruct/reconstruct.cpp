@@ -182,12 +182,12 @@ class Reporter {
   std::size_t steps_;
 };
 
-std::vector<Region> clean_all(const std::vector<Layer>& layers, Fill fill,
+std::vector<Region> clean_all(const std::vector<Layer>& layers, const Filling& filling,
                               std::vector<Defect>& repairs, const Progress& progress) {
   const Reporter reporter(progress, Stage::clean, layers.size());
   std::vector<Region> regions;
   for (const Layer& layer : layers) {
-    regions.push_back(clean(layer.contours, layer.z, fill, repairs));
+    regions.push_back(clean(layer.contours, layer.z, filling, repairs));
     regions.back().slice = layer.slice;
     reporter.report(regions.size());
   }
@@ -231,8 +231,8 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   Reconstruction result;
   const auto layers = find_layers(slices, options.label, result.repairs);
   check_gaps(layers);
-  check_gaps(layers);
-  auto regions = trim(clean_all(layers, options.fill, result.repairs, progress), result.repairs);
+  const Filling filling{options.fill, options.keyhole_width};
+  auto regions = trim(clean_all(layers, filling, result.repairs, progress), result.repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
   const auto slabs = tile_all(regions, progress);

@@ -5,11 +5,14 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
+#include "reconstruct/keyholes.h"
+#include "reconstruct/meetings.h"
 
 namespace loft {
 
@@ -20,20 +23,63 @@ using cdt::Point;
 using cdt::Triangulation;
 using cdt::VertexId;
 
-/// A contour without points given twice in a row, in an order that does not depend on where it
-/// starts and which way round it goes.
-std::vector<Point> normal_form(std::span<const Point> points) {
+/// What a contour draws, whatever way it is written.
+struct NormalForm {
+  /// Its places in an order that does not depend on where it starts and which way round it goes,
+  /// once if it goes round several times, none given twice in a row.
+  std::vector<Point> places;
+  std::vector<std::uint32_t> numbers;  ///< of the points that say it once
+  std::size_t laps = 1;                ///< how often it goes round the same points
+  bool turns_left = true;              ///< whether it encloses more on its left
+};
+
+/// How long the part is that a ring repeats all round; its length if there is none.
+std::size_t period(std::span<const Point> ring) {
+  std::vector<std::size_t> border(ring.size() + 1);  // Knuth, Morris, Pratt 1977
+  for (std::size_t i = 1, k = 0; i < ring.size(); ++i) {
+    while (k > 0 && ring[i] != ring[k]) k = border[k];
+    if (ring[i] == ring[k]) ++k;
+    border[i + 1] = k;
+  }
+  const std::size_t part = ring.size() - border[ring.size()];
+  return part != 0 && ring.size() % part == 0 ? part : ring.size();
+}
+
+double twice_area(std::span<const Point> ring) {
+  double twice = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point a = ring[i];
+    const Point b = ring[(i + 1) % ring.size()];
+    twice += (a.x - ring[0].x) * (b.y - ring[0].y) - (a.y - ring[0].y) * (b.x - ring[0].x);
+  }
+  return twice;
+}
+
+NormalForm normal_form(std::span<const Point> points) {
+  NormalForm form;
   std::vector<Point> ring;
-  for (const Point p : points)
-    if (ring.empty() || ring.back() != p) ring.push_back(p);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!ring.empty() && ring.back() == points[i]) continue;
+    ring.push_back(points[i]);
+    form.numbers.push_back(i);
+  }
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
-  std::vector<Point> best;
-  for (int direction = 0; direction < 2; ++direction) {
+  const std::size_t once = period(ring);
+  form.laps = once == 0 ? 1 : ring.size() / once;
+  ring.resize(once);
+  form.numbers.resize(once);
+  bool is_forward = true;
+  for (const bool forward : {true, false}) {
     std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
-    if (best.empty() || ring < best) best = ring;
+    if (form.places.empty() || ring < form.places) {
+      form.places = ring;
+      is_forward = forward;
+    }
     std::ranges::reverse(ring);
   }
-  return best;
+  const double twice = twice_area(form.places);
+  form.turns_left = twice == 0 ? is_forward : (twice > 0) == is_forward;
+  return form;
 }
 
 bool are_in_line(std::span<const Point> points) {
@@ -49,16 +95,15 @@ constexpr double tightness = 0x1p-49;
 /// The cleaning of one slice, stage by stage.
 class Cleaning {
  public:
-  Cleaning(std::span<const ContourSource> contours, double z, Fill fill,
+  Cleaning(std::span<const ContourSource> contours, double z, const Filling& filling,
            std::vector<Defect>& repairs)
-      : contours_(contours), z_(z), fill_(fill), repairs_(repairs) {}
+      : contours_(contours), z_(z), filling_(filling), repairs_(repairs) {}
 
   Region run() {
     choose_contours();
     insert();
     find_inside();
-    report_crossings();
-    report_overlaps();
+    report_meetings();
     return follow_loops();
   }
 
@@ -69,27 +114,89 @@ class Cleaning {
   }
 
  private:
+  /// A closed line that is inserted: a contour, or what is left of it.
+  struct Ring {
+    std::uint32_t contour;               // index in contours_
+    std::vector<std::uint32_t> numbers;  // of its points; none where it has all
+    bool turns_left;
+  };
+
   Defect& report(DefectKind kind, std::uint32_t contour, std::string message) {
     const ContourSource& source = contours_[contour];
     repairs_.push_back({kind, z_, source.slice, source.contour, {}, {}, 0, std::move(message)});
     return repairs_.back();
   }
+  /// What messages call a contour.
+  [[nodiscard]] std::string called(std::uint32_t contour) const {
+    return "contour " + std::to_string(contours_[contour].contour);
+  }
 
   void choose_contours() {
-    std::map<std::vector<Point>, std::uint32_t> seen;
+    std::map<std::vector<Point>, std::size_t> seen;  // where the first one is in rings_
     for (std::uint32_t i = 0; i < contours_.size(); ++i) {
-      std::vector<Point> ring = normal_form(contours_[i].points);
-      if (ring.empty() || are_in_line(ring)) {
-        report_degenerate(i, ring);
-      } else if (const auto [other, is_new] = seen.try_emplace(std::move(ring), i); !is_new) {
+      NormalForm form = normal_form(contours_[i].points);
+      if (form.places.empty() || are_in_line(form.places)) {
+        report_degenerate(i, form.places);
+        continue;
+      }
+      if (form.laps > 1)
         report(DefectKind::repeated_contour, i,
-               "is the same as contour " + std::to_string(contours_[other->second].contour) +
-                   "; one copy dropped")
-            .place = other->first.front();
+               "goes round the same points " + std::to_string(form.laps) + " times; kept once")
+            .place = form.places.front();
+      Ring ring{i, {}, form.turns_left};
+      if (form.laps > 1) ring.numbers = std::move(form.numbers);
+      const auto [other, is_new] = seen.try_emplace(std::move(form.places), rings_.size());
+      if (is_new) {
+        rings_.push_back(std::move(ring));
       } else {
-        chosen_.push_back(i);
+        drop_copy(rings_[other->second], std::move(ring));
       }
     }
+    if (filling_.rule == Fill::keyhole_aware) cut_channels();
+  }
+
+  /// Of two that go round opposite ways the one that turns left stays: with it, whatever else is
+  /// there, a point that only these two wind around is inside, and the order does not matter.
+  void drop_copy(Ring& kept, Ring dropped) {
+    const bool is_turned = kept.turns_left != dropped.turns_left;
+    if (is_turned && dropped.turns_left) std::swap(kept, dropped);
+    report(DefectKind::repeated_contour, dropped.contour,
+           "is the same as " + called(kept.contour) + (is_turned ? ", the other way round" : "") +
+               "; one copy dropped")
+        .place = contours_[dropped.contour].points.front();
+  }
+
+  void cut_channels() {
+    std::vector<Ring> all;
+    for (Ring& ring : rings_) {
+      const std::vector<Point> points = points_of(ring);
+      KeyholeCut cut = cut_keyholes(points, filling_.channel_width(points));
+      if (cut.channels.empty()) {
+        all.push_back(std::move(ring));
+        continue;
+      }
+      for (auto& part : cut.rings) {
+        if (!ring.numbers.empty())
+          for (std::uint32_t& number : part) number = ring.numbers[number];
+        all.push_back({ring.contour, std::move(part), ring.turns_left});
+      }
+      for (const Channel& channel : cut.channels) {
+        Defect& defect =
+            report(DefectKind::keyhole, ring.contour,
+                   "leads through a channel to a hole and back; cut there, the hole taken out");
+        defect.place = channel.place;
+        defect.area = channel.area;
+      }
+    }
+    rings_ = std::move(all);
+  }
+
+  [[nodiscard]] std::vector<Point> points_of(const Ring& ring) const {
+    const auto points = contours_[ring.contour].points;
+    if (ring.numbers.empty()) return {points.begin(), points.end()};
+    std::vector<Point> result;
+    for (const std::uint32_t number : ring.numbers) result.push_back(points[number]);
+    return result;
   }
 
   void report_degenerate(std::uint32_t contour, const std::vector<Point>& ring) {
@@ -104,9 +211,15 @@ class Cleaning {
 
   void insert() {
     std::size_t count = 0;
-    for (const std::uint32_t i : chosen_) count += contours_[i].points.size();
+    for (const Ring& ring : rings_) count += contours_[ring.contour].points.size();
     mesh_.reserve(count);
-    for (const std::uint32_t i : chosen_) mesh_.insert(contours_[i].points, cdt::closed);
+    for (const Ring& ring : rings_) {
+      if (ring.numbers.empty()) {
+        mesh_.insert(contours_[ring.contour].points, cdt::closed);
+      } else {
+        mesh_.insert(points_of(ring), cdt::closed);
+      }
+    }
     note_sources();
   }
 
@@ -114,25 +227,27 @@ class Cleaning {
   void note_sources() {
     origins_.assign(mesh_.vertex_bound(),
                     Origin{VertexKind::cleaning, Origin::none, Origin::none, Origin::none});
-    for (std::uint32_t c = 0; c < chosen_.size(); ++c) {
-      const ContourSource& source = contours_[chosen_[c]];
-      const auto segments = mesh_.segments(cdt::ConstraintId(c));
+    for (std::uint32_t r = 0; r < rings_.size(); ++r) {
+      const Ring& ring = rings_[r];
+      const ContourSource& source = contours_[ring.contour];
+      const auto segments = mesh_.segments(cdt::ConstraintId(r));
       std::uint32_t repeated = 0;
       for (std::uint32_t i = 0; i < segments.size(); ++i) {
         Origin& origin = origins_[segments[i].from.index()];
         const bool is_closing = i + 1 == segments.size();
         if (segments[i].from == segments[i].to && !is_closing) ++repeated;
         if (origin.contour != Origin::none) continue;
-        origin = {VertexKind::contour, source.slice, source.contour, i};
+        origin = {VertexKind::contour, source.slice, source.contour,
+                  ring.numbers.empty() ? i : ring.numbers[i]};
       }
       if (repeated != 0)
-        report(DefectKind::repeated_point, chosen_[c],
+        report(DefectKind::repeated_point, ring.contour,
                std::to_string(repeated) + " points given twice in a row; kept once");
     }
   }
 
   void find_inside() {
-    if (fill_ == Fill::even_odd) {
+    if (filling_.rule != Fill::nonzero) {
       is_inside_ = cdt::odd_parity(mesh_);
     } else {
       const auto windings = cdt::winding_numbers(mesh_);
@@ -149,88 +264,58 @@ class Cleaning {
     return is_inside(e) && !is_inside(mesh_.twin(e));
   }
 
+  [[nodiscard]] std::uint32_t contour_of(cdt::ConstraintId ring) const {
+    return rings_[ring.index()].contour;
+  }
   [[nodiscard]] std::uint32_t contour_of(cdt::Passage passage) const {
-    return chosen_[mesh_.segment(passage.segment()).constraint.index()];
+    return contour_of(mesh_.segment(passage.segment()).constraint);
   }
 
-  /// One report for each contour, or pair of contours, that cross: the first place and how many.
-  void report_crossings() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<VertexId, std::size_t>> found;
-    for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i) {
-      if (!mesh_.is_vertex(VertexId(i)) || origins_[i].kind == VertexKind::contour) continue;
-      std::set<std::uint32_t> around;
-      const EdgeId first = mesh_.edge(VertexId(i));
-      EdgeId e = first;
-      do {
-        for (const cdt::Passage passage : mesh_.passages(e)) around.insert(contour_of(passage));
-        e = mesh_.rotated(e);
-      } while (e != first);
-      ++found.try_emplace({*around.begin(), *around.rbegin()}, VertexId(i), 0).first->second.second;
-    }
-    for (const auto& [pair, crossings] : found) {
-      const auto& [place, count] = crossings;
-      const std::string times = count == 1 ? "" : ", " + std::to_string(count) + " times";
-      const std::string rule = fill_ == Fill::even_odd
-                                   ? "; parts enclosed twice are outside (--fill evenodd); "
-                                     "--fill nonzero keeps them"
-                                   : "; parts that it winds around are inside (--fill nonzero)";
-      Defect& defect =
-          pair.first == pair.second
-              ? report(DefectKind::self_crossing, pair.first, "crosses itself" + times + rule)
-              : report(DefectKind::overlap, pair.second,
-                       "crosses contour " + std::to_string(contours_[pair.first].contour) + times +
-                           rule);
-      defect.place = mesh_.point(place);
-      defect.area = changed_area(pair.first, pair.second);
+  /// One report for each contour, or pair of contours, and way in which they meet.
+  void report_meetings() {
+    for (const Meeting& meeting : find_meetings(mesh_, is_inside_)) {
+      const std::uint32_t one = contour_of(meeting.one);
+      const std::uint32_t other = contour_of(meeting.other);
+      Defect& defect = report(kind_of(meeting, one == other), other, message(meeting, one, other));
+      defect.place = meeting.place;
+      defect.area = meeting.area;
     }
   }
 
-  /// The area that the fill rule decided otherwise than the contours, each taken for itself and
-  /// as one simple outline, would have it.
-  [[nodiscard]] double changed_area(std::uint32_t one, std::uint32_t other) const {
-    const auto windings = cdt::winding_numbers(mesh_, [&](cdt::ConstraintId c) {
-      return chosen_[c.index()] == one || chosen_[c.index()] == other;
-    });
-    double positive = 0;
-    double negative = 0;
-    double multiple = 0;
-    for (std::uint32_t t = 0; t < windings.size(); ++t) {
-      if (windings[t] == 0) continue;
-      const double area = triangle_area(cdt::TriangleId(t));
-      (windings[t] > 0 ? positive : negative) += area;
-      if (std::abs(windings[t]) > 1) multiple += area;
+  [[nodiscard]] static DefectKind kind_of(const Meeting& meeting, bool is_one_contour) {
+    switch (meeting.kind) {
+      case Meeting::Kind::crossing:
+        return is_one_contour ? DefectKind::self_crossing : DefectKind::overlap;
+      case Meeting::Kind::doubled:
+        return DefectKind::spike;
+      case Meeting::Kind::covered:
+        return DefectKind::covered;
+      default:
+        return DefectKind::touching;
     }
-    return multiple + (one == other ? std::min(positive, negative) : 0);
   }
 
-  [[nodiscard]] double triangle_area(cdt::TriangleId t) const {
-    const EdgeId e = Triangulation::edge(t);
-    const Point a = mesh_.point(mesh_.from(e));
-    const Point b = mesh_.point(mesh_.to(e));
-    const Point c = mesh_.point(mesh_.apex(e));
-    return ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
-  }
-
-  /// Edges along which contours run more than once: spikes, and outlines that share a side.
-  void report_overlaps() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Point> found;
-    for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
-      const EdgeId e(i);
-      const auto passages = mesh_.passages(e);
-      if (passages.size() < 2 || mesh_.twin(e) < e) continue;
-      const std::pair<std::uint32_t, std::uint32_t> pair =
-          std::minmax({contour_of(passages.front()), contour_of(passages.back())});
-      found.try_emplace(pair, mesh_.point(mesh_.from(e)));
+  [[nodiscard]] std::string message(const Meeting& meeting, std::uint32_t one,
+                                    std::uint32_t other) const {
+    const std::string what = one == other ? "itself" : called(one);
+    switch (meeting.kind) {
+      case Meeting::Kind::crossing:
+        return "crosses " + what +
+               (meeting.places == 1 ? "" : ", " + std::to_string(meeting.places) + " times") +
+               (filling_.rule == Fill::nonzero
+                    ? "; parts that are wound around are inside (--fill nonzero)"
+                    : "; parts enclosed twice are outside (--fill evenodd); --fill nonzero keeps "
+                      "them");
+      case Meeting::Kind::doubled:
+        return "runs out and back along the same line, a spike or the channel to a hole; left out";
+      case Meeting::Kind::shared_side:
+        return "shares part of its outline with " + what + "; joined there";
+      case Meeting::Kind::upon_side:
+        return "has a corner on a side of " + what + ", or the reverse; the side is split there";
+      case Meeting::Kind::covered:
+        break;
     }
-    for (const auto& [pair, place] : found) {
-      Defect& defect = pair.first == pair.second
-                           ? report(DefectKind::spike, pair.first,
-                                    "runs out and back along the same line; the spike is removed")
-                           : report(DefectKind::touching, pair.second,
-                                    "shares part of its outline with contour " +
-                                        std::to_string(contours_[pair.first].contour));
-      defect.place = place;
-    }
+    return "is inside of others that make it no hole (--fill nonzero); without effect";
   }
 
   /// The next boundary edge with the same inside on its left: around the end of e, through the
@@ -286,6 +371,7 @@ class Cleaning {
       const EdgeId after = next_boundary(e);
       if (const VertexId v = vertex_upon(e); !v.is_none()) {
         region.loop_vertices.push_back(add_point(v, region));
+        report_led_through(e, v);
         is_settled_ = false;
       }
       if (!is_left_over(e, after))
@@ -318,6 +404,12 @@ class Cleaning {
     return VertexId::none();
   }
 
+  void report_led_through(EdgeId e, VertexId v) {
+    report(DefectKind::touching, contour_of(mesh_.passages(e).front()),
+           "a side passes a corner nearer than rounding can tell; led through it")
+        .place = mesh_.point(v);
+  }
+
   std::uint32_t add_point(VertexId v, Region& region) {
     std::uint32_t& index = index_[v.index()];
     if (index == Origin::none) {
@@ -333,9 +425,9 @@ class Cleaning {
   bool is_settled_ = true;  // no outline was led through a vertex beside it
   std::span<const ContourSource> contours_;
   double z_;
-  Fill fill_;
+  Filling filling_;
   std::vector<Defect>& repairs_;
-  std::vector<std::uint32_t> chosen_;  // contour of each constraint
+  std::vector<Ring> rings_;  // by constraint
   Triangulation mesh_;
   std::vector<Origin> origins_;       // of each vertex
   std::vector<bool> is_inside_;       // of each triangle
@@ -388,7 +480,7 @@ Region settle(Region region) {
       sources.push_back({loops[i], region.slice, i});
     }
     std::vector<Defect> nothing_new;
-    Region again = Cleaning(sources, region.z, Fill::even_odd, nothing_new).run();
+    Region again = Cleaning(sources, region.z, {}, nothing_new).run();
     for (Origin& origin : again.origins)
       if (origin.kind == VertexKind::contour)
         origin = region.origins[target[region.loop(origin.contour)[origin.point]]];
@@ -402,9 +494,16 @@ Region settle(Region region) {
 
 }  // namespace
 
-Region clean(std::span<const ContourSource> contours, double z, Fill fill,
+double Filling::channel_width(std::span<const cdt::Point> contour) const {
+  if (keyhole_width) return *keyhole_width;
+  cdt::Box box;
+  for (const Point p : contour) box.add(p);
+  return box.is_empty() ? 0 : 1e-3 * std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
+}
+
+Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,
              std::vector<Defect>& repairs) {
-  Cleaning cleaning(contours, z, fill, repairs);
+  Cleaning cleaning(contours, z, filling, repairs);
   Region region = cleaning.run();
   return cleaning.is_settled() ? region : settle(std::move(region));
 }

@@ -51,7 +51,8 @@ std::string missing_edge(const std::vector<Slice>& slices, const Reconstruction&
     for (std::uint32_t c = 0; c < slices[s].contours.size(); ++c) {
       const auto& points = slices[s].contours[c].points;
       for (std::uint32_t p = 0; p < points.size(); ++p)
-        if (!edges.has(points[p], points[(p + 1) % points.size()], slices[s].z))
+        if (points[p] != points[(p + 1) % points.size()] &&
+            !edges.has(points[p], points[(p + 1) % points.size()], slices[s].z))
           return "slice " + std::to_string(s) + " contour " + std::to_string(c) + " point " +
                  std::to_string(p) + " has lost its edge ";
     }

@@ -27,7 +27,9 @@ class Generator {
     return low + (high - low) * (static_cast<double>(random_() >> 11) * 0x1p-53);
   }
   /// 10 to the power of minus 1 to minus `most`.
-  double small(std::uint64_t most) { return std::pow(10.0, -1.0 - static_cast<double>(below(most))); }
+  double small(std::uint64_t most) {
+    return std::pow(10.0, -1.0 - static_cast<double>(below(most)));
+  }
 
   Contours polygons() { return random_slice(0, random_, false).contours; }
 
@@ -214,10 +216,10 @@ void transform(std::vector<Slice>& slices, double scale, Point shift) {
       for (Point& p : contour.points) p = {p.x * scale + shift.x, p.y * scale + shift.y};
 }
 
-constexpr std::array kinds{"polygons", "on a grid",     "masks",        "nearly copies",
-                           "turned",   "a hair apart",  "keyholes",     "spikes",
-                           "twice",    "shared sides",  "in line",      "vertices on sides",
-                           "far away", "tiny units",    "columns",      "mixed"};
+constexpr std::array kinds{"polygons", "on a grid",    "masks",    "nearly copies",
+                           "turned",   "a hair apart", "keyholes", "spikes",
+                           "twice",    "shared sides", "in line",  "vertices on sides",
+                           "far away", "tiny units",   "columns",  "mixed"};
 
 }  // namespace
 
@@ -295,7 +297,7 @@ Pair random_pair(std::uint64_t seed) {
   }
   std::vector<Slice> slices{{0, std::move(lower)}, {gap, std::move(upper)}};
   transform(slices, scale, shift);
-  constexpr std::array fills{Fill::even_odd, Fill::nonzero};
+  constexpr std::array fills{Fill::even_odd, Fill::nonzero, Fill::keyhole_aware};
   return {std::move(slices), fills[make.below(fills.size())]};
 }
 

@@ -19,7 +19,7 @@ Region clean_slice(const Slice& slice, std::vector<Defect>& repairs, Fill fill =
   std::vector<ContourSource> sources;
   for (std::uint32_t c = 0; c < slice.contours.size(); ++c)
     sources.push_back({slice.contours[c].points, 0, c});
-  return clean(sources, slice.z, fill, repairs);
+  return clean(sources, slice.z, {fill}, repairs);
 }
 
 double area(const Region& region) {
