@@ -88,16 +88,33 @@ bool are_in_line(std::span<const Point> points) {
                              [&](Point p) { return cdt::orient(ends.min, ends.max, p) == 0; });
 }
 
-/// A vertex and an edge that are nearer than that, relative to the coordinates, touch: 16
-/// roundings.
-constexpr double tightness = 0x1p-49;
+/// Outlines of a slice that are nearer to each other than that touch: 16 roundings of the
+/// coordinates, and 1e-12 of the slice's width. Between nearer ones, crossings with the contours of
+/// the next slice could not be told apart.
+double least_distance(std::span<const ContourSource> contours) {
+  cdt::Box box;
+  double farthest = 0;
+  for (const ContourSource& contour : contours) {
+    for (const Point p : contour.points) {
+      box.add(p);
+      farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
+    }
+  }
+  const double width =
+      box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  return std::max(0x1p-49 * farthest, 0x1p-40 * width);
+}
 
 /// The cleaning of one slice, stage by stage.
 class Cleaning {
  public:
   Cleaning(std::span<const ContourSource> contours, double z, const Filling& filling,
-           std::vector<Defect>& repairs)
-      : contours_(contours), z_(z), filling_(filling), repairs_(repairs) {}
+           double least_distance, std::vector<Defect>& repairs)
+      : contours_(contours),
+        z_(z),
+        filling_(filling),
+        least_distance_(least_distance),
+        repairs_(repairs) {}
 
   Region run() {
     choose_contours();
@@ -107,10 +124,20 @@ class Cleaning {
     return follow_loops();
   }
 
-  /// Whether the region's vertices are those of the contours, and none is upon an edge.
+  /// For what is a region already: copies cancel each other, there is nothing to report.
+  Region run_again() {
+    for (std::uint32_t i = 0; i < contours_.size(); ++i)
+      if (!contours_[i].points.empty()) rings_.push_back({i, {}, true});
+    insert();
+    find_inside();
+    return follow_loops();
+  }
+
+  /// Whether the region's vertices are those of the contours, and nothing is too near.
   [[nodiscard]] bool is_settled() const {
-    return is_settled_ && std::ranges::find(origins_.begin() + 1, origins_.end(),
-                                            VertexKind::cleaning, &Origin::kind) == origins_.end();
+    return is_settled_ && !has_near_vertices() &&
+           std::ranges::find(origins_.begin() + 1, origins_.end(), VertexKind::cleaning,
+                             &Origin::kind) == origins_.end();
   }
 
  private:
@@ -385,12 +412,25 @@ class Cleaning {
     region.loop_starts.push_back(static_cast<std::uint32_t>(region.loop_vertices.size()));
   }
 
-  /// A vertex that is beside an edge by a few roundings only: the outline is led through it, or
-  /// the next rounding, where contours of two slices cross, might put it on the other side.
+  /// The nearest of several vertices is a neighbour in the triangulation.
+  [[nodiscard]] bool has_near_vertices() const {
+    for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
+      const EdgeId e(i);
+      if (!mesh_.is_triangle(Triangulation::triangle(e))) continue;
+      if (mesh_.from(e) == Triangulation::infinite || mesh_.to(e) == Triangulation::infinite)
+        continue;
+      const Point a = mesh_.point(mesh_.from(e));
+      const Point b = mesh_.point(mesh_.to(e));
+      if (std::abs(a.x - b.x) < least_distance_ && std::abs(a.y - b.y) < least_distance_)
+        return true;
+    }
+    return false;
+  }
+
+  /// A vertex that is too near to an edge: the outline is led through it.
   [[nodiscard]] VertexId vertex_upon(EdgeId e) const {
     const Point a = mesh_.point(mesh_.from(e));
     const Point b = mesh_.point(mesh_.to(e));
-    const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
     for (const EdgeId side : {e, mesh_.twin(e)}) {
       const VertexId v = mesh_.apex(side);
       if (v == Triangulation::infinite) continue;
@@ -398,7 +438,7 @@ class Cleaning {
       const double along = (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y);
       const double length = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
       const double area = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-      if (along > 0 && along < length && std::abs(area) < tightness * size * std::sqrt(length))
+      if (along > 0 && along < length && std::abs(area) < least_distance_ * std::sqrt(length))
         return v;
     }
     return VertexId::none();
@@ -406,7 +446,7 @@ class Cleaning {
 
   void report_led_through(EdgeId e, VertexId v) {
     report(DefectKind::touching, contour_of(mesh_.passages(e).front()),
-           "a side passes a corner nearer than rounding can tell; led through it")
+           "a side comes nearer to a corner than can be told apart; led through it")
         .place = mesh_.point(v);
   }
 
@@ -426,6 +466,7 @@ class Cleaning {
   std::span<const ContourSource> contours_;
   double z_;
   Filling filling_;
+  double least_distance_;
   std::vector<Defect>& repairs_;
   std::vector<Ring> rings_;  // by constraint
   Triangulation mesh_;
@@ -442,9 +483,10 @@ namespace {
 /// than a few were never seen.
 constexpr int most_rounds = 16;
 
-/// For each point the one to put in its place: a crossing within a few roundings of another point
-/// is that point. Points of contours stay.
-std::vector<std::uint32_t> weld(const Region& region) {
+/// For each point the one to put in its place: of two that are too near to each other one goes, a
+/// crossing rather than a point of a contour.
+std::vector<std::uint32_t> weld(const Region& region, double least_distance,
+                                std::vector<Defect>& repairs) {
   const auto& points = region.points;
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -455,13 +497,20 @@ std::vector<std::uint32_t> weld(const Region& region) {
   };
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Point p = points[order[i]];
-    const double near = 2 * tightness * std::max(std::abs(p.x), std::abs(p.y));
-    for (std::size_t j = i + 1; j < order.size() && points[order[j]].x - p.x <= near; ++j) {
-      if (std::abs(points[order[j]].y - p.y) > near) continue;
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const Point q = points[order[j]];
+      if (q.x - p.x > 2 * least_distance) break;
+      if (std::abs(q.y - p.y) > 2 * least_distance) continue;
       if (is_crossing(order[j])) {
         target[order[j]] = target[order[i]];
       } else if (is_crossing(order[i])) {
         target[order[i]] = order[j];
+      } else if (target[order[j]] == order[j]) {
+        const Origin& origin = region.origins[order[j]];
+        repairs.push_back({DefectKind::repeated_point, region.z, origin.slice, origin.contour,
+                           origin.point, q, 0,
+                           "is nearer to another point than can be told apart; one kept"});
+        target[order[j]] = target[order[i]];
       }
     }
   }
@@ -470,17 +519,17 @@ std::vector<std::uint32_t> weld(const Region& region) {
 }
 
 /// The loops of a region cleaned once more, as long as that changes anything.
-Region settle(Region region) {
+Region settle(Region region, double least_distance, std::vector<Defect>& repairs) {
   for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<std::uint32_t> target = weld(region);
+    const std::vector<std::uint32_t> target = weld(region, least_distance, repairs);
     std::vector<std::vector<Point>> loops(region.loop_count());
     std::vector<ContourSource> sources;
     for (std::uint32_t i = 0; i < loops.size(); ++i) {
       for (const std::uint32_t v : region.loop(i)) loops[i].push_back(region.points[target[v]]);
       sources.push_back({loops[i], region.slice, i});
     }
-    std::vector<Defect> nothing_new;
-    Region again = Cleaning(sources, region.z, {}, nothing_new).run();
+    std::vector<Defect> known;
+    Region again = Cleaning(sources, region.z, {}, least_distance, known).run_again();
     for (Origin& origin : again.origins)
       if (origin.kind == VertexKind::contour)
         origin = region.origins[target[region.loop(origin.contour)[origin.point]]];
@@ -503,9 +552,10 @@ double Filling::channel_width(std::span<const cdt::Point> contour) const {
 
 Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,
              std::vector<Defect>& repairs) {
-  Cleaning cleaning(contours, z, filling, repairs);
+  const double least = least_distance(contours);
+  Cleaning cleaning(contours, z, filling, least, repairs);
   Region region = cleaning.run();
-  return cleaning.is_settled() ? region : settle(std::move(region));
+  return cleaning.is_settled() ? region : settle(std::move(region), least, repairs);
 }
 
 void insert_loops(const Region& region, cdt::Triangulation& mesh, Point shift) {
