@@ -155,6 +155,7 @@ class Search {
     find_covered();
     if (is_crowded_) {
       const Faces faces(mesh_, is_meeting_);
+      find_corners();
       find_crossings_of_two(faces);
       find_crossings_of_one(faces);
       find_doubled_and_shared();
@@ -209,6 +210,17 @@ class Search {
       for_each_edge_at(VertexId(i), [&](EdgeId e) {
         for (const Passage passage : mesh_.passages(e)) is_meeting_[ring(passage).index()] = true;
       });
+    }
+  }
+
+  /// The first ring that has a corner at each vertex.
+  void find_corners() {
+    corner_of_.assign(mesh_.vertex_bound(), ConstraintId::none());
+    for (std::uint32_t s = 0; s < mesh_.segment_bound(); ++s) {
+      if (!mesh_.is_segment(cdt::SegmentId(s))) continue;
+      const cdt::Segment& segment = mesh_.segment(cdt::SegmentId(s));
+      ConstraintId& first = corner_of_[segment.from.index()];
+      first = std::min(first, segment.constraint);  // none is the largest
     }
   }
 
@@ -291,7 +303,8 @@ class Search {
     }
   }
 
-  /// A ring crosses itself if it winds around something more than once, or both ways.
+  /// A ring crosses itself if it winds around something more than once, or both ways, or if it
+  /// passes a place several times where it has no corner.
   void find_crossings_of_one(const Faces& faces) {
     struct Areas {
       double left = 0;
@@ -323,15 +336,21 @@ class Search {
     for (const auto& [ring, meeting] : crossings) found_.push_back(meeting);
   }
 
-  /// The rings whose winding takes three values or more around a vertex.
+  /// The rings whose winding takes three values or more around a vertex, and those that only pass
+  /// it.
   [[nodiscard]] std::vector<ConstraintId> rings_crossing_at(VertexId v, const Faces& faces) const {
     std::map<ConstraintId, std::uint32_t> here;
     for_each_edge_at(v, [&](EdgeId e) {
       for (const Passage passage : mesh_.passages(e)) ++here[ring(passage)];
     });
     std::vector<ConstraintId> result;
+    const bool is_corner = !corner_of_[v.index()].is_none();
     for (const auto& [ring, passages] : here) {
       if (passages <= 2) continue;
+      if (!is_corner) {
+        result.push_back(ring);
+        continue;
+      }
       int low = std::numeric_limits<int>::max();
       int high = std::numeric_limits<int>::min();
       for_each_edge_at(v, [&](EdgeId e) {
@@ -385,21 +404,14 @@ class Search {
   }
 
   void find_upon_sides() {
-    std::vector<ConstraintId> owner(mesh_.vertex_bound());
-    for (std::uint32_t s = 0; s < mesh_.segment_bound(); ++s) {
-      if (!mesh_.is_segment(cdt::SegmentId(s))) continue;
-      const cdt::Segment& segment = mesh_.segment(cdt::SegmentId(s));
-      ConstraintId& first = owner[segment.from.index()];
-      first = std::min(first, segment.constraint);  // none is the largest
-    }
     ByRings upon(Meeting::Kind::upon_side);
     for_each_edge([&](EdgeId first) {
       for (const EdgeId e : {first, mesh_.twin(first)}) {
         const VertexId v = mesh_.to(e);
-        if (owner[v.index()].is_none()) continue;
+        if (corner_of_[v.index()].is_none()) continue;
         for (const Passage passage : mesh_.passages(e))
           if (mesh_.is_forward(e, passage) && mesh_.segment(passage.segment()).to != v)
-            upon.add(in_order(ring(passage), owner[v.index()]), mesh_.point(v));
+            upon.add(in_order(ring(passage), corner_of_[v.index()]), mesh_.point(v));
       }
     });
     upon.move_to(found_);
@@ -412,6 +424,7 @@ class Search {
   std::vector<bool> is_bounding_;           // of each ring: whether it bounds the region anywhere
   std::vector<bool> is_meeting_;            // of each ring: whether it has a crowded vertex
   bool is_crowded_ = false;
+  std::vector<ConstraintId> corner_of_;  // of each vertex
   std::map<Rings, Evidence> evidence_;
 };
 
