@@ -12,6 +12,8 @@
 
 namespace loft {
 
+class SheetHeights;
+
 /// A vertex of a slab's tiles that is not a contour vertex.
 struct InnerVertex {
   Vec3 place;
@@ -69,6 +71,8 @@ class Lift {
   void restore_columns();
   void lift_crossings();
   [[nodiscard]] std::vector<Steiner> find_chords() const;
+  [[nodiscard]] std::vector<Steiner> find_flat() const;
+  [[nodiscard]] Steiner in_middle_of(cdt::EdgeId e, SheetHeights& heights) const;
   [[nodiscard]] std::vector<Steiner> find_coarse_ends() const;
   bool insert(std::vector<Steiner> steiners);
   [[nodiscard]] double z_at(cdt::EdgeId corner) const;

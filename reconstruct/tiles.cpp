@@ -226,8 +226,11 @@ bool fit_together(const Region& lower, const Region& upper, const TileSet& tiles
     const auto [low, high] = std::minmax(from, to);
     edges.push_back({low, high, from < to ? 1 : -1, is_contour});
   };
-  for (const Tile& tile : tiles.tiles)
+  for (const Tile& tile : tiles.tiles) {
+    const auto [least, most] = std::ranges::minmax(tile.nodes);
+    if (most < lower_count || (least >= lower_count && most < contour_count)) return false;
     for (unsigned i = 0; i < 3; ++i) add(tile.nodes[i], tile.nodes[(i + 1) % 3], false);
+  }
   for (const Region* region : {&lower, &upper}) {
     const std::uint32_t first = region == &lower ? 0 : lower_count;
     for (std::size_t i = 0; i < region->loop_count(); ++i) {
