@@ -40,11 +40,26 @@ std::size_t count_components(const Mesh& mesh, std::span<const std::uint32_t> fa
   return static_cast<std::size_t>(std::ranges::count_if(faces, is_first));
 }
 
-/// Euler: vertices - edges + faces = 2 components - 2 genus.
-int genus(const Measures& m) {
+/// The holes of an open surface: chains of edges with one face.
+std::size_t count_rims(const Mesh& mesh, const Edges& edges) {
+  DisjointSets joined(mesh.points.size());
+  std::vector<std::uint32_t> ends;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges[e].size() != 1) continue;
+    joined.unite(edges[e].front().low, edges[e].front().high);
+    ends.push_back(edges[e].front().low);
+  }
+  for (std::uint32_t& end : ends) end = joined.find(end);
+  std::ranges::sort(ends);
+  return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
+}
+
+/// Euler: vertices - edges + faces = 2 components - 2 genus - rims.
+int genus(const Measures& m, std::size_t rims) {
   const auto euler =
       static_cast<std::int64_t>(m.vertices + m.faces) - static_cast<std::int64_t>(m.edges);
-  return static_cast<int>((2 * static_cast<std::int64_t>(m.components) - euler) / 2);
+  return static_cast<int>(
+      (2 * static_cast<std::int64_t>(m.components) - euler - static_cast<std::int64_t>(rims)) / 2);
 }
 
 /// Seen from a corner of the mesh, so that its place in space costs no accuracy.
@@ -70,7 +85,7 @@ Measures measure(const Mesh& mesh) {
   result.edges = edges.size();
   result.faces = faces.size();
   result.components = count_components(mesh, faces, edges);
-  result.genus = genus(result);
+  result.genus = genus(result, count_rims(mesh, edges));
   measure_area_and_volume(mesh, faces, result);
   return result;
 }

@@ -13,7 +13,8 @@ struct Measures {
   std::size_t edges = 0;
   std::size_t faces = 0;
   std::size_t components = 0;  ///< parts connected through edges
-  int genus = 0;               ///< sum over the components; meaningful for closed manifolds only
+  /// The sum over the components, an open one with its holes closed; meaningful for manifolds only.
+  int genus = 0;
   double area = 0;
   double volume = 0;  ///< signed: positive if faces look outwards
 };
