@@ -87,11 +87,27 @@ struct Run {
   std::size_t home;
 };
 
+/// How the two parts are to each other that a channel joins.
+enum class Parts { apart, first_inside, second_inside };
+
+/// A ring, and whether it bounds a hole: has the region outside.
+struct Open {
+  Ring ring;
+  bool is_hole;
+};
+
 /// Finds a channel in one ring.
 class Finder {
  public:
-  Finder(const Positions& ring, double width)
-      : ring_(ring), width_(width), is_spent_(ring.size()) {}
+  Finder(const Positions& ring, bool is_hole, double width)
+      : ring_(ring), is_hole_(is_hole), width_(width), is_spent_(ring.size()) {}
+
+  [[nodiscard]] Parts parts(const Run& run) const {
+    const std::size_t next_begin = run.begin + ring_.size();
+    if (is_inside(farthest(run.end, run.back), run.home, next_begin)) return Parts::first_inside;
+    if (is_inside(farthest(run.home, next_begin), run.end, run.back)) return Parts::second_inside;
+    return Parts::apart;
+  }
 
   std::optional<Run> run() {
     for (const auto& [apart, i, j] : close_points()) {
@@ -170,8 +186,8 @@ class Finder {
     const std::size_t next_begin = run.begin + ring_.size();
     if (next_begin < run.home || ring_.length(run.begin, run.end) <= width) return false;
     if (!is_wide(run.end, run.back, width) || !is_wide(run.home, next_begin, width)) return false;
-    return is_inside(farthest(run.end, run.back), run.home, next_begin) ||
-           is_inside(farthest(run.home, next_begin), run.end, run.back);
+    // Outside of an outline is what joins it to a hole; inside of a hole, what joins two of them.
+    return (parts(run) == Parts::apart) == is_hole_;
   }
 
   /// Whether part of the ring is more than a thread of that width.
@@ -204,6 +220,7 @@ class Finder {
   }
 
   const Positions& ring_;
+  bool is_hole_;
   double width_;
   std::vector<bool> is_spent_;  // by long runs that were no channels
 };
@@ -219,23 +236,28 @@ double area_between(const Positions& ring, const Run& run) {
 
 KeyholeCut cut_keyholes(std::span<const Point> points, double width) {
   KeyholeCut cut;
-  std::vector<Ring> open(1);  // still to be looked at
+  Ring whole;
   for (std::uint32_t i = 0; i < points.size(); ++i)
-    if (open[0].empty() || points[open[0].back()] != points[i]) open[0].push_back(i);
-  while (open[0].size() > 1 && points[open[0].front()] == points[open[0].back()])
-    open[0].pop_back();
+    if (whole.empty() || points[whole.back()] != points[i]) whole.push_back(i);
+  while (whole.size() > 1 && points[whole.front()] == points[whole.back()]) whole.pop_back();
+  std::vector<Open> open;  // still to be looked at
+  open.push_back({std::move(whole), false});
   while (!open.empty()) {
-    Ring ring = std::move(open.back());
+    auto [ring, is_hole] = std::move(open.back());
     open.pop_back();
     const Positions positions(points, ring);
-    const auto run = Finder(positions, width).run();
+    Finder finder(positions, is_hole, width);
+    const auto run = finder.run();
     if (!run) {
       cut.rings.push_back(std::move(ring));
       continue;
     }
     cut.channels.push_back({positions.at(run->begin), area_between(positions, *run)});
-    open.push_back(positions.ring(run->end, run->back));
-    open.push_back(positions.ring(run->home, run->begin + ring.size()));
+    const Parts parts = finder.parts(*run);
+    open.push_back(
+        {positions.ring(run->end, run->back), (parts == Parts::first_inside) != is_hole});
+    open.push_back({positions.ring(run->home, run->begin + ring.size()),
+                    (parts == Parts::second_inside) != is_hole});
   }
   return cut;
 }
