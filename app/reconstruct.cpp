@@ -172,7 +172,10 @@ void say_summary(const ReconstructCommand& command, const std::list<Result>& res
                  Terminal& terminal) {
   for (const Result& result : results) {
     const std::string& label = result.report.label;
-    terminal.say((label.empty() ? "" : label + ": ") + describe(result.report.measures));
+    const std::string prefix = label.empty() ? "" : label + ": ";
+    terminal.say(prefix + describe(result.report.measures));
+    if (!result.report.repairs.empty())
+      terminal.say(prefix + describe(summarize(result.report.repairs)));
   }
   for (const path& output : command.outputs) terminal.say("wrote " + output.string());
 }
