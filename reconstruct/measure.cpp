@@ -4,22 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "reconstruct/adjacency.h"
+#include "reconstruct/triangle_shape.h"
+#include "reconstruct/vec3.h"
 
 namespace loft {
 
 namespace {
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 std::size_t count_used_vertices(const Mesh& mesh, std::span<const std::uint32_t> faces) {
   std::vector<bool> is_used(mesh.points.size(), false);
@@ -60,6 +55,23 @@ void measure_area_and_volume(const Mesh& mesh, std::span<const std::uint32_t> fa
   }
 }
 
+Angles measure_angles(const Mesh& mesh, std::span<const std::uint32_t> faces) {
+  if (faces.empty()) return {};
+  Angles result;
+  std::vector<double> angles;
+  for (const std::uint32_t face : faces) {
+    const auto [i, j, k] = mesh.faces[face];
+    const Corners corners{mesh.points[i], mesh.points[j], mesh.points[k]};
+    angles.push_back(smallest_angle(corners) * 180 / std::numbers::pi);
+    result.worst_aspect = std::max(result.worst_aspect, aspect(corners));
+  }
+  std::ranges::sort(angles);
+  result.smallest = angles.front();
+  result.fifth_percentile = angles[angles.size() / 20];
+  result.median = angles[angles.size() / 2];
+  return result;
+}
+
 }  // namespace
 
 Measures measure(const Mesh& mesh) {
@@ -72,6 +84,7 @@ Measures measure(const Mesh& mesh) {
   result.components = count_components(mesh, faces, edges);
   result.genus = genus(result);
   measure_area_and_volume(mesh, faces, result);
+  result.angles = measure_angles(mesh, faces);
   return result;
 }
 

@@ -24,6 +24,14 @@ struct Options {
   Cap cap = Cap::flat;
   /// Only contours with this label; all contours where not set.
   std::optional<std::string> label = {};
+  /// Splits inner edges of slabs that are longer: see split_long_edges(). Positive.
+  std::optional<double> max_edge = {};
+  /// Brings inner edges of slabs near that length, with better angles: see even_out_edges().
+  /// Positive; not with max_edge.
+  std::optional<double> target_edge = {};
+  /// Removes vertices as long as the surface moves by no more than that: see simplify(). Not
+  /// negative; not with max_edge or target_edge.
+  std::optional<double> simplify = {};
 };
 
 }  // namespace loft

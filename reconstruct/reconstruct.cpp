@@ -8,8 +8,10 @@
 #include <set>
 #include <string>
 
+#include "reconstruct/refine.h"
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
+#include "reconstruct/simplify.h"
 #include "reconstruct/tiles.h"
 
 namespace loft {
@@ -194,11 +196,20 @@ std::vector<Region> clean_all(const std::vector<Layer>& layers, Fill fill,
   return regions;
 }
 
-std::vector<TileSet> tile_all(const std::vector<Region>& regions, const Progress& progress) {
+TileSet refined(const Region& lower, const Region& upper, TileSet tiles, const Options& options) {
+  if (options.max_edge) return split_long_edges(lower, upper, std::move(tiles), *options.max_edge);
+  if (options.target_edge)
+    return even_out_edges(lower, upper, std::move(tiles), *options.target_edge);
+  return tiles;
+}
+
+std::vector<TileSet> tile_all(const std::vector<Region>& regions, const Options& options,
+                              const Progress& progress) {
   const Reporter reporter(progress, Stage::tile, regions.size() - 1);
   std::vector<TileSet> slabs;
   for (std::size_t i = 0; i + 1 < regions.size(); ++i) {
-    slabs.push_back(tile(regions[i], regions[i + 1]));
+    slabs.push_back(
+        refined(regions[i], regions[i + 1], tile(regions[i], regions[i + 1]), options));
     reporter.report(slabs.size());
   }
   return slabs;
@@ -235,11 +246,16 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   auto regions = trim(clean_all(layers, options.fill, result.repairs, progress), result.repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
-  const auto slabs = tile_all(regions, progress);
+  const auto slabs = tile_all(regions, options, progress);
   report_unlinked(regions, slabs, result.repairs);
   const Reporter sewing(progress, Stage::sew, 1);
   result.surface = sew(regions, slabs, options.cap);
   sewing.report(1);
+  if (options.simplify) {
+    const Reporter simplifying(progress, Stage::simplify, 1);
+    simplify(result.surface, *options.simplify);
+    simplifying.report(1);
+  }
   std::ranges::stable_sort(result.repairs, {}, &Defect::z);
   return result;
 }
