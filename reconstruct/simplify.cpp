@@ -31,6 +31,13 @@ constexpr std::size_t largest_fan = 64;
 /// In sizes of a fan: a distance below that may be rounding, so whether it is 0 is decided exactly.
 constexpr double doubtful_distance = 0x1p-40;
 
+/// What a collapse costs: its distance, less where it makes good triangles. Angles in radians count
+/// up to 0.4. Against plain distances that took the 5th percentile of a bunny's smallest angles from
+/// 10 to 17 degrees for 6% more triangles, on other stacks for fewer.
+double cost(double distance, double worst_angle) {
+  return distance / (0.2 + std::min(worst_angle, 0.4));
+}
+
 /// A point seen along the normal of a fan from its middle: x and y across, z along.
 double area(const Vec3& a, const Vec3& b) { return a[0] * b[1] - a[1] * b[0]; }
 double area(const Vec3& a, const Vec3& b, const Vec3& c) { return area(minus(b, a), minus(c, a)); }
@@ -250,13 +257,14 @@ class Simplifier {
  private:
   /// A way to remove a vertex.
   struct Target {
-    double distance;  // the bound of the faces after it
+    double cost;
     double angle;     // the smallest of the new triangles
+    double distance;  // the bound of the faces after it
     std::size_t at;   // in the fan
   };
   /// A vertex that may be removed, by its best way.
   struct Entry {
-    double distance;
+    double cost;
     double angle;
     Vec3 place;
     Vertex vertex;
@@ -264,7 +272,7 @@ class Simplifier {
 
     /// Whether b comes first.
     friend bool operator<(const Entry& a, const Entry& b) {
-      if (a.distance != b.distance) return a.distance > b.distance;
+      if (a.cost != b.cost) return a.cost > b.cost;
       if (a.angle != b.angle) return a.angle < b.angle;
       return a.place > b.place;
     }
@@ -327,10 +335,12 @@ class Simplifier {
       moved = std::max(moved, moved_[index(fan_.face(i))]);
     for (std::size_t i = 0; i < fan_.size(); ++i) {
       const double distance = moved + fan_.distance(i);
-      if (distance <= tolerance_) targets_.push_back({distance, fan_.worst_angle(i), i});
+      if (distance > tolerance_) continue;
+      const double angle = fan_.worst_angle(i);
+      targets_.push_back({cost(distance, angle), angle, distance, i});
     }
     std::ranges::sort(targets_, [this](const Target& a, const Target& b) {
-      if (a.distance != b.distance) return a.distance < b.distance;
+      if (a.cost != b.cost) return a.cost < b.cost;
       if (a.angle != b.angle) return a.angle > b.angle;
       return fan_.place(a.at) < fan_.place(b.at);
     });
@@ -341,8 +351,7 @@ class Simplifier {
     ++versions_[index(v)];
     find_targets(v);
     if (targets_.empty()) return;
-    queue_.push({targets_.front().distance, targets_.front().angle, place(v), v,
-                 versions_[index(v)]});
+    queue_.push({targets_.front().cost, targets_.front().angle, place(v), v, versions_[index(v)]});
   }
 
   bool collapse(Vertex v) {

@@ -14,8 +14,8 @@ struct Simplification {
 };
 
 /// Removes vertices as long as the surface stays within `tolerance` of what it was, by collapsing
-/// edges into one of their ends: smallest distance first, so the vertices that stay have their
-/// places and origins.
+/// edges into one of their ends: the vertices that stay have their places and origins. Collapses
+/// that move the surface least come first, of those alike the ones that make better angles.
 ///
 /// Guarantees:
 /// - Both ways: every point of the surface given, so every contour vertex and edge too, is within
