@@ -62,7 +62,7 @@ Angles measure_angles(const Mesh& mesh, std::span<const std::uint32_t> faces) {
   for (const std::uint32_t face : faces) {
     const auto [i, j, k] = mesh.faces[face];
     const Corners corners{mesh.points[i], mesh.points[j], mesh.points[k]};
-    angles.push_back(smallest_angle(corners) * 180 / std::numbers::pi);
+    angles.push_back(std::asin(smallest_sine(corners)) * 180 / std::numbers::pi);
     result.worst_aspect = std::max(result.worst_aspect, aspect(corners));
   }
   std::ranges::sort(angles);

@@ -288,7 +288,7 @@ class Refinement {
     if (squared > squared_most_ && squared >= e.squared_length) return false;
     const std::array old_faces{Nodes{e.from, e.to, c}, Nodes{e.to, e.from, d}};
     const std::array new_faces{Nodes{c, d, e.to}, Nodes{d, c, e.from}};
-    if (!(worst_angle(new_faces) > worst_angle(old_faces)) || !is_flat(old_faces, new_faces) ||
+    if (!(worst_sine(new_faces) > worst_sine(old_faces)) || !is_flat(old_faces, new_faces) ||
         are_joined(c, d))
       return false;
     new_faces_.assign(new_faces.begin(), new_faces.end());
@@ -311,8 +311,8 @@ class Refinement {
                                          : std::pair{sides_[1], sides_[0]};
   }
 
-  [[nodiscard]] double worst_angle(const std::array<Nodes, 2>& faces) const {
-    return std::min(smallest_angle(places(faces[0])), smallest_angle(places(faces[1])));
+  [[nodiscard]] double worst_sine(const std::array<Nodes, 2>& faces) const {
+    return std::min(smallest_sine(places(faces[0])), smallest_sine(places(faces[1])));
   }
 
   [[nodiscard]] bool is_flat(const std::array<Nodes, 2>& old_faces,

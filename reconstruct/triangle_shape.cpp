@@ -30,10 +30,9 @@ Sides sides(Corners t) {
 
 }  // namespace
 
-double smallest_angle(const Corners& triangle) {
+double smallest_sine(const Corners& triangle) {
   const auto [squared, area] = sides(triangle);
-  // Between the two longer sides, b and c: |b x c| = area, b . c by the law of cosines.
-  return std::atan2(area, (squared[1] + squared[2] - squared[0]) / 2);
+  return area > 0 ? area / std::sqrt(squared[1] * squared[2]) : 0;  // between the longer sides
 }
 
 double aspect(const Corners& triangle) {
