@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,16 +23,22 @@ namespace loft {
 
 namespace {
 
-/// Edges longer than that, in target lengths, are split: both halves are then nearer to the target
-/// than the whole was (Botsch and Kobbelt, 2004).
+/// Edges longer than that, in target lengths, are split, shorter ones collapsed: what comes of it is
+/// then nearer to the target (Botsch and Kobbelt, 2004).
 constexpr double most_of_target = 4.0 / 3;
+constexpr double least_of_target = 4.0 / 5;
 
 /// Cosine of the most that the normals of flipped triangles may differ: 15 degrees. A square bent
 /// by that along a diagonal moves by 0.065 of it.
 constexpr double least_cosine = 0.966;
 
-/// Flips make new long edges, whose halves can be flipped: that often both are tried.
-constexpr int most_rounds = 4;
+/// A collapse may leave no worse angle than it finds, or than this sine: 20 degrees.
+constexpr double good_sine = 0.34;
+
+/// Each step makes room for others: that often all are tried. After five rounds little changes.
+constexpr int most_rounds = 5;
+
+constexpr std::uint32_t none = Origin::none;
 
 /// More vertices in one slab are taken for a mistake.
 constexpr double most_vertices = 0x1p28;
@@ -47,11 +54,9 @@ class Refinement {
         lower_(lower),
         upper_(upper),
         lower_count_(static_cast<std::uint32_t>(lower.points.size())),
-        contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())) {
-    faces_.resize(contour_count_ + inner_.size());
-    for (std::uint32_t f = 0; f < tiles_.size(); ++f)
-      for (const std::uint32_t node : tiles_[f].nodes) faces_[node].push_back(f);
-    build_grid();
+        contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())),
+        first_added_(contour_count_ + static_cast<std::uint32_t>(inner_.size())) {
+    index_faces();
   }
 
   /// Splits edges longer than `most`, as far as they are the longest of their faces. Whether any.
@@ -83,6 +88,30 @@ class Refinement {
       is_changed = flip(edge) || is_changed;
     }
     return is_changed;
+  }
+
+  /// Collapses edges shorter than `least` into one end where the other is an added vertex, as long
+  /// as no edge gets longer than `most`. Whether any.
+  bool collapse(double least, double most) {
+    squared_most_ = most * most;
+    std::vector<Edge> edges = all_edges();
+    std::erase_if(edges, [=](const Edge& e) { return e.squared_length >= least * least; });
+    std::ranges::sort(edges, [this](const Edge& a, const Edge& b) { return is_longer(b, a); });
+    bool is_changed = false;
+    for (const Edge& e : edges)
+      if (collapse(e.from, e.to) || collapse(e.to, e.from)) is_changed = true;
+    if (is_changed) compact();
+    return is_changed;
+  }
+
+  /// Moves each added vertex to the middle of its neighbours, along the surface, where that makes
+  /// the smallest angle at it larger and no edge longer than `most`.
+  void relax(double most) {
+    squared_most_ = most * most;
+    std::vector<std::uint32_t> nodes;
+    for (std::uint32_t node = first_added_; node < faces_.size(); ++node) nodes.push_back(node);
+    std::ranges::sort(nodes, {}, [this](std::uint32_t node) { return place(node); });
+    for (const std::uint32_t node : nodes) relax_node(node);
   }
 
  private:
@@ -160,6 +189,13 @@ class Refinement {
     }
   }
 
+  void index_faces() {
+    faces_.assign(contour_count_ + inner_.size(), {});
+    for (std::uint32_t f = 0; f < tiles_.size(); ++f)
+      for (const std::uint32_t node : tiles_[f].nodes) faces_[node].push_back(f);
+    build_grid();
+  }
+
   /// The grid's cells fit the faces of the time when it was made.
   void build_grid() {
     grid_.emplace(tiles_.size(),
@@ -184,10 +220,12 @@ class Refinement {
     }
     return std::ranges::all_of(corners_, [this](const Corners& corners) {
       return grid_->all_of_near(footprint(corners), [&](std::uint32_t face) {
-        return is_side(face) || !triangles_meet(corners, places(tiles_[face].nodes));
+        return is_dead(face) || is_side(face) || !triangles_meet(corners, places(tiles_[face].nodes));
       });
     });
   }
+
+  [[nodiscard]] bool is_dead(std::uint32_t face) const { return tiles_[face].nodes[0] == none; }
 
   void replace_face(std::uint32_t face, const Nodes& nodes) {
     for (const std::uint32_t node : tiles_[face].nodes) std::erase(faces_[node], face);
@@ -311,24 +349,28 @@ class Refinement {
                                          : std::pair{sides_[1], sides_[0]};
   }
 
-  [[nodiscard]] double worst_sine(const std::array<Nodes, 2>& faces) const {
-    return std::min(smallest_sine(places(faces[0])), smallest_sine(places(faces[1])));
+  [[nodiscard]] double worst_sine(std::span<const Nodes> faces) const {
+    double worst = 1;
+    for (const Nodes& nodes : faces) worst = std::min(worst, smallest_sine(places(nodes)));
+    return worst;
+  }
+
+  [[nodiscard]] Vec3 normal(const Nodes& nodes) const {
+    const auto [a, b, c] = places(nodes);
+    return cross(minus(b, a), minus(c, a));
+  }
+
+  [[nodiscard]] static bool are_alike(const Vec3& a, const Vec3& b) {
+    return dot(a, b) >= least_cosine * std::sqrt(squared_length(a) * squared_length(b));
   }
 
   [[nodiscard]] bool is_flat(const std::array<Nodes, 2>& old_faces,
                              const std::array<Nodes, 2>& new_faces) const {
-    const auto normal = [this](const Nodes& nodes) {
-      const auto [a, b, c] = places(nodes);
-      return cross(minus(b, a), minus(c, a));
-    };
     const std::array normals{normal(old_faces[0]), normal(old_faces[1]), normal(new_faces[0]),
                              normal(new_faces[1])};
     for (std::size_t i = 0; i < normals.size(); ++i)
       for (std::size_t j = 0; j < i; ++j)
-        if (!(dot(normals[i], normals[j]) >=
-              least_cosine *
-                  std::sqrt(squared_length(normals[i]) * squared_length(normals[j]))))
-          return false;
+        if (!are_alike(normals[i], normals[j])) return false;
     return true;
   }
 
@@ -339,12 +381,151 @@ class Refinement {
     });
   }
 
+  // --- Collapses and moves ---
+
+  /// Finds the faces at an added node and, in order, the nodes around it; whether they are one
+  /// closed fan.
+  bool find_fan(std::uint32_t node) {
+    sides_.clear();
+    link_.clear();
+    const std::vector<std::uint32_t>& faces = faces_[node];
+    if (faces.size() < 3) return false;
+    const auto across = [&](std::uint32_t face) {  // the edge opposite to the node
+      const Nodes& n = tiles_[face].nodes;
+      const unsigned i = n[0] == node ? 0 : n[1] == node ? 1 : 2;
+      return std::pair{n[(i + 1) % 3], n[(i + 2) % 3]};
+    };
+    std::uint32_t next = across(faces.front()).first;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      const auto found = std::ranges::find_if(
+          faces, [&](std::uint32_t face) { return across(face).first == next; });
+      if (found == faces.end() || std::ranges::find(link_, next) != link_.end()) return false;
+      link_.push_back(next);
+      next = across(*found).second;
+      sides_.push_back({*found, next});
+    }
+    return next == link_.front();
+  }
+
+  /// Moves an added node into a neighbour: the two faces at the edge between them vanish.
+  bool collapse(std::uint32_t node, std::uint32_t target) {
+    if (node < first_added_ || !find_fan(node)) return false;
+    const auto found = std::ranges::find(link_, target);
+    if (found == link_.end()) return false;
+    const auto at = static_cast<std::size_t>(found - link_.begin());
+    if (!may_join(at)) return false;
+    old_faces_.clear();
+    new_faces_.clear();
+    for (const EdgeFace& side : sides_) {
+      Nodes nodes = tiles_[side.face].nodes;
+      old_faces_.push_back(nodes);
+      if (std::ranges::find(nodes, target) != nodes.end()) continue;
+      const Vec3 old_normal = normal(nodes);
+      std::ranges::replace(nodes, node, target);
+      if (!are_alike(old_normal, normal(nodes))) return false;
+      new_faces_.push_back(nodes);
+    }
+    if (worst_sine(new_faces_) < std::min(worst_sine(old_faces_), good_sine) ||
+        !meet_nothing(new_faces_))
+      return false;
+    for (const EdgeFace& side : sides_) {
+      Nodes nodes = tiles_[side.face].nodes;
+      if (std::ranges::find(nodes, target) != nodes.end()) {
+        for (const std::uint32_t corner : nodes) std::erase(faces_[corner], side.face);
+        tiles_[side.face].nodes[0] = none;
+      } else {
+        std::ranges::replace(nodes, node, target);
+        replace_face(side.face, nodes);
+        grid_->add(side.face, footprint(places(nodes)));
+      }
+    }
+    return true;
+  }
+
+  /// Whether the neighbour `at` can be joined with all others around the node: by edges that are
+  /// new (the link condition), not too long, and not in a slice plane.
+  [[nodiscard]] bool may_join(std::size_t at) const {
+    const std::size_t n = link_.size();
+    const std::uint32_t target = link_[at];
+    for (std::size_t i = 2; i + 1 < n; ++i) {
+      const std::uint32_t other = link_[(at + i) % n];
+      if (in_one_slice(target, other) || are_joined(target, other) ||
+          squared_length(minus(place(other), place(target))) > squared_most_)
+        return false;
+    }
+    return n > 3;
+  }
+
+  void relax_node(std::uint32_t node) {
+    if (!find_fan(node)) return;
+    Vec3& at = inner_[node - contour_count_].place;
+    const Vec3 old_place = at;
+    new_faces_.clear();
+    for (const EdgeFace& side : sides_) new_faces_.push_back(tiles_[side.face].nodes);
+    std::vector<Vec3> normals;
+    for (const Nodes& nodes : new_faces_) normals.push_back(normal(nodes));
+    const double old_sine = worst_sine(new_faces_);
+    at = middle_of_link(old_place, normals);
+    if (keeps_lengths(old_place, at) && at[2] > lower_.z && at[2] < upper_.z &&
+        worst_sine(new_faces_) > old_sine && keeps_normals(normals) && meet_nothing(new_faces_)) {
+      for (const EdgeFace& side : sides_)
+        grid_->add(side.face, footprint(places(tiles_[side.face].nodes)));
+    } else {
+      at = old_place;
+    }
+  }
+
+  /// The middle of the nodes around a place, in the plane through it across the mean normal.
+  [[nodiscard]] Vec3 middle_of_link(const Vec3& from, std::span<const Vec3> normals) const {
+    Vec3 way{};
+    for (const std::uint32_t other : link_)
+      for (std::size_t axis = 0; axis < 3; ++axis)
+        way[axis] += (place(other)[axis] - from[axis]) / static_cast<double>(link_.size());
+    Vec3 mean{};
+    for (const Vec3& n : normals)
+      for (std::size_t axis = 0; axis < 3; ++axis) mean[axis] += n[axis];
+    const double share = dot(way, mean) / squared_length(mean);
+    return {from[0] + way[0] - share * mean[0], from[1] + way[1] - share * mean[1],
+            from[2] + way[2] - share * mean[2]};
+  }
+
+  /// Whether no edge to the nodes around gets longer than allowed, or than it was.
+  [[nodiscard]] bool keeps_lengths(const Vec3& from, const Vec3& to) const {
+    return std::ranges::all_of(link_, [&](std::uint32_t other) {
+      const double squared = squared_length(minus(place(other), to));
+      return squared <= squared_most_ || squared <= squared_length(minus(place(other), from));
+    });
+  }
+
+  [[nodiscard]] bool keeps_normals(std::span<const Vec3> normals) const {
+    for (std::size_t i = 0; i < normals.size(); ++i)
+      if (!are_alike(normals[i], normal(new_faces_[i]))) return false;
+    return true;
+  }
+
+  /// Drops dead tiles and the added vertices that no tile uses.
+  void compact() {
+    std::erase_if(tiles_, [](const Tile& tile) { return tile.nodes[0] == none; });
+    std::vector<std::uint32_t> renumbered(faces_.size());
+    std::uint32_t count = 0;
+    for (std::uint32_t node = 0; node < faces_.size(); ++node) {
+      if (node >= first_added_ && faces_[node].empty()) continue;
+      if (node >= contour_count_) inner_[count - contour_count_] = inner_[node - contour_count_];
+      renumbered[node] = count++;
+    }
+    inner_.resize(count - contour_count_);
+    for (Tile& tile : tiles_)
+      for (std::uint32_t& node : tile.nodes) node = renumbered[node];
+    index_faces();
+  }
+
   std::vector<Tile>& tiles_;
   std::vector<InnerVertex>& inner_;
   const Region& lower_;
   const Region& upper_;
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
+  std::uint32_t first_added_;                      // the first node that was not there before
   std::vector<std::vector<std::uint32_t>> faces_;  // at each node
   std::optional<TileGrid> grid_;
   std::size_t built_for_ = 0;  // faces
@@ -352,8 +533,10 @@ class Refinement {
   std::priority_queue<Edge, std::vector<Edge>, Shorter> long_edges_{Shorter{this}};
   std::vector<Edge> doubtful_;  // edges that may be flipped, the next one last
 
-  // Of the edge at hand.
+  // Of the edge or node at hand: its faces, the nodes around it, and what becomes of them.
   std::vector<EdgeFace> sides_;
+  std::vector<std::uint32_t> link_;
+  std::vector<Nodes> old_faces_;
   std::vector<Nodes> new_faces_;
   std::vector<Corners> corners_;
 };
@@ -374,7 +557,10 @@ TileSet even_out_edges(const Region& lower, const Region& upper, TileSet tiles,
   Refinement refinement(lower, upper, tiles);
   for (int round = 0; round < most_rounds; ++round) {
     const bool is_split = refinement.split_longer_than(most);
-    if (!refinement.flip(most) && !is_split) break;
+    const bool is_collapsed = refinement.collapse(least_of_target * target_edge, most);
+    const bool is_flipped = refinement.flip(most);
+    if (!is_split && !is_collapsed && !is_flipped) break;
+    refinement.relax(most);
   }
   return tiles;
 }
