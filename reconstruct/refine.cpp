@@ -114,6 +114,18 @@ class Refinement {
     for (const std::uint32_t node : nodes) relax_node(node);
   }
 
+  /// All four; whether anything has changed.
+  bool even_out(double target, double angle) { least_cosine_=std::cos(angle);
+    const double most = most_of_target * target;
+    const bool is_split = split_longer_than(most);
+    const bool is_collapsed = collapse(least_of_target * target, most);
+    const bool is_flipped = flip(most);
+    relax(most);
+    return is_split || is_collapsed || is_flipped;
+  }
+
+  double longest_edge() const { double r = 0; for (const Edge& e : all_edges()) r = std::max(r, std::sqrt(e.squared_length)); return r; }
+
  private:
   /// An inner edge, from the end of the smaller place.
   struct Edge {
@@ -236,7 +248,7 @@ class Refinement {
   // --- Splits ---
 
   /// Each vertex takes about half the squared length of the longest edge.
-  void check_size(double most) const {
+public:  void check_size(double most) const {
     double area = 0;
     for (const Tile& tile : tiles_) {
       const auto [a, b, c] = places(tile.nodes);
@@ -356,12 +368,14 @@ class Refinement {
   }
 
   [[nodiscard]] Vec3 normal(const Nodes& nodes) const {
-    const auto [a, b, c] = places(nodes);
+    Corners corners = places(nodes);
+    std::ranges::rotate(corners, std::ranges::min_element(corners));
+    const auto& [a, b, c] = corners;
     return cross(minus(b, a), minus(c, a));
   }
 
-  [[nodiscard]] static bool are_alike(const Vec3& a, const Vec3& b) {
-    return dot(a, b) >= least_cosine * std::sqrt(squared_length(a) * squared_length(b));
+  [[nodiscard]] bool are_alike(const Vec3& a, const Vec3& b) const {
+    return dot(a, b) >= least_cosine_ * std::sqrt(squared_length(a) * squared_length(b));
   }
 
   [[nodiscard]] bool is_flat(const std::array<Nodes, 2>& old_faces,
@@ -404,7 +418,14 @@ class Refinement {
       next = across(*found).second;
       sides_.push_back({*found, next});
     }
-    return next == link_.front();
+    if (next != link_.front()) return false;
+    // Sums over the fan are rounded in one order, whatever the numbers.
+    const auto first = std::ranges::min_element(
+        link_, {}, [this](std::uint32_t other) { return place(other); });
+    const auto turn = first - link_.begin();
+    std::rotate(link_.begin(), link_.begin() + turn, link_.end());
+    std::rotate(sides_.begin(), sides_.begin() + turn, sides_.end());
+    return true;
   }
 
   /// Moves an added node into a neighbour: the two faces at the edge between them vanish.
@@ -529,7 +550,7 @@ class Refinement {
   std::vector<std::vector<std::uint32_t>> faces_;  // at each node
   std::optional<TileGrid> grid_;
   std::size_t built_for_ = 0;  // faces
-  double squared_most_ = 0;
+  double squared_most_ = 0; double least_cosine_=.985;
   std::priority_queue<Edge, std::vector<Edge>, Shorter> long_edges_{Shorter{this}};
   std::vector<Edge> doubtful_;  // edges that may be flipped, the next one last
 
@@ -553,14 +574,15 @@ TileSet split_long_edges(const Region& lower, const Region& upper, TileSet tiles
 TileSet even_out_edges(const Region& lower, const Region& upper, TileSet tiles,
                        double target_edge) {
   assert(target_edge > 0);
-  const double most = most_of_target * target_edge;
   Refinement refinement(lower, upper, tiles);
-  for (int round = 0; round < most_rounds; ++round) {
-    const bool is_split = refinement.split_longer_than(most);
-    const bool is_collapsed = refinement.collapse(least_of_target * target_edge, most);
-    const bool is_flipped = refinement.flip(most);
-    if (!is_split && !is_collapsed && !is_flipped) break;
-    refinement.relax(most);
+  refinement.check_size(target_edge);
+  double length = target_edge;
+  while (2 * length < refinement.longest_edge()) length *= 2;
+  while (length > target_edge) {
+    refinement.even_out(length, 0.175*target_edge/length);
+    length /= 2;
+  }
+  for (int round = 0; round < most_rounds && refinement.even_out(target_edge,.175); ++round) {
   }
   return tiles;
 }
