@@ -123,8 +123,7 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
   json["options"] = {{"fill", name(command.options.fill)},
                      {"cap", name(command.options.cap)},
                      {"metres_per_unit", command.metres_per_unit}};
-  for (const auto& [setting, length] : lengths(command.options))
-    json["options"][setting] = length;
+  for (const auto& [setting, length] : lengths(command.options)) json["options"][setting] = length;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;

@@ -208,8 +208,7 @@ std::vector<TileSet> tile_all(const std::vector<Region>& regions, const Options&
   const Reporter reporter(progress, Stage::tile, regions.size() - 1);
   std::vector<TileSet> slabs;
   for (std::size_t i = 0; i + 1 < regions.size(); ++i) {
-    slabs.push_back(
-        refined(regions[i], regions[i + 1], tile(regions[i], regions[i + 1]), options));
+    slabs.push_back(refined(regions[i], regions[i + 1], tile(regions[i], regions[i + 1]), options));
     reporter.report(slabs.size());
   }
   return slabs;

@@ -26,11 +26,11 @@ namespace loft {
 [[nodiscard]] TileSet split_long_edges(const Region& lower, const Region& upper, TileSet tiles,
                                        double max_edge);
 
-/// Brings the inner edges of a slab near a length, with triangles of good shape (Botsch and Kobbelt,
-/// 2004): edges longer than 4/3 of it are split, like those of split_long_edges(); those of new
-/// vertices that are shorter than 4/5 are collapsed; edges are flipped, and new vertices moved to
-/// the middle of their neighbours, where that makes the smallest angle there larger. Contour
-/// vertices stay, however near to each other; so do the vertices that tiling has added.
+/// Brings the inner edges of a slab near a length, with triangles of good shape (Botsch and
+/// Kobbelt, 2004): edges longer than 4/3 of it are split, like those of split_long_edges(); those
+/// of new vertices that are shorter than 4/5 are collapsed; edges are flipped, and new vertices
+/// moved to the middle of their neighbours, where that makes the smallest angle there larger.
+/// Contour vertices stay, however near to each other; so do the vertices that tiling has added.
 ///
 /// All but the splits move the surface a little. They happen only where no triangle turns by more
 /// than 10 degrees, and where the new triangles meet nothing (exact test). On stacks cut from known

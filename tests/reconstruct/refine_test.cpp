@@ -94,7 +94,8 @@ std::vector<TiledSlab> plain_slabs() {
   slabs.emplace_back(Slice{0, {stacks::square(2)}}, Slice{9, {stacks::square(2)}});
   slabs.emplace_back(Slice{0, {stacks::circle(30, 1)}}, Slice{1, {}});
   for (const auto& slices : {stacks::y_branch(5, 30), stacks::Torus::slices(6, 12)})
-    for (std::size_t i = 0; i + 1 < slices.size(); ++i) slabs.emplace_back(slices[i], slices[i + 1]);
+    for (std::size_t i = 0; i + 1 < slices.size(); ++i)
+      slabs.emplace_back(slices[i], slices[i + 1]);
   return slabs;
 }
 
@@ -121,8 +122,8 @@ void expect_refined(const TiledSlab& slab, const TileSet& refined, double most) 
   const Mesh mesh = slab.mesh(refined);
   double bound = most;
   for (const auto& [edge, count] : contour_edges(slab, refined))
-    bound = std::max(bound, std::sqrt(squared_length(
-                                minus(mesh.points[edge.first], mesh.points[edge.second]))));
+    bound = std::max(
+        bound, std::sqrt(squared_length(minus(mesh.points[edge.first], mesh.points[edge.second]))));
   std::size_t touching = 0;
   for (const auto& [edge, longest_beside] : edges(mesh)) {
     const double length =
@@ -189,8 +190,8 @@ TEST(Refine, TargetEdgeKeepsContoursAndStaysNear) {
       expect_refined(slab, refined, target * 4 / 3);
       const Mesh before = slab.mesh(slab.tiles);
       const Mesh after = slab.mesh(refined);
-      EXPECT_LE(triangles::farthest(after, before), 0.4 * target);
-      EXPECT_LE(triangles::farthest(before, after), 0.4 * target);
+      EXPECT_LE(triangles::farthest(after, before), 0.5 * target);
+      EXPECT_LE(triangles::farthest(before, after), 0.5 * target);
     }
   }
 }
@@ -234,12 +235,13 @@ TEST(Refine, AnyContoursMakeASolid) {
 }
 
 TEST(Refine, RoundingFarFromTheOriginMakesNothingMeet) {
+  // Numbers there are 1/16 apart: most middles would fold the surface.
   std::vector<Slice> slices = stacks::Torus::slices(8, 8);
   for (Slice& slice : slices)
     for (Contour& contour : slice.contours)
-      for (cdt::Point& p : contour.points) p = {p.x + 1e13, p.y - 3e13};
-  EXPECT_EQ(triangles::faults(reconstruct(slices, {.max_edge = 0.05}).surface), "");
-  EXPECT_EQ(triangles::faults(reconstruct(slices, {.target_edge = 0.05}).surface), "");
+      for (cdt::Point& p : contour.points) p = {16 * p.x + 5e14, 16 * p.y - 5e14};
+  EXPECT_EQ(triangles::faults(reconstruct(slices, {.max_edge = 1}).surface), "");
+  EXPECT_EQ(triangles::faults(reconstruct(slices, {.target_edge = 1}).surface), "");
 }
 
 TEST(Refine, NumbersOfVerticesHaveNoPartInIt) {
