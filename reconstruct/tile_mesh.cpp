@@ -40,11 +40,13 @@ void TileMesh::index_tiles() {
   build_grid();
 }
 
-/// The grid's cells fit the tiles of the time when it was made. Precondition: none is removed.
+/// The grid's cells fit the tiles of the time when it was made. A removed tile has two nodes left.
 void TileMesh::build_grid() {
-  grid_.emplace(tiles_.size(),
-                [this](std::uint32_t t) { return footprint(places(tiles_[t].nodes)); });
-  built_for_ = tiles_.size();
+  grid_.emplace(tiles_.size(), [this](std::uint32_t t) {
+    const Nodes& nodes = tiles_[t].nodes;
+    return footprint(places({is_removed(t) ? nodes[1] : nodes[0], nodes[1], nodes[2]}));
+  });
+  most_notes_ = 2 * tiles_.size();
 }
 
 TileMesh::Edge TileMesh::edge(std::uint32_t a, std::uint32_t b) const {
@@ -134,15 +136,19 @@ void TileMesh::note_move(std::uint32_t node) {
   for (const std::uint32_t tile : tiles_at(node)) note(tile);
 }
 
-/// Tells the grid where a tile is now; where it was does no harm.
-void TileMesh::note(std::uint32_t tile) { grid_->add(tile, footprint(places(tiles_[tile].nodes))); }
+/// Tells the grid where a tile is now; where it was does no harm until there is too much of that.
+void TileMesh::note(std::uint32_t tile) {
+  if (most_notes_-- == 0)
+    build_grid();
+  else
+    grid_->add(tile, footprint(places(tiles_[tile].nodes)));
+}
 
 void TileMesh::add(const Nodes& nodes, FaceKind kind) {
   const auto tile = static_cast<std::uint32_t>(tiles_.size());
   tiles_.push_back({nodes, kind});
   for (const std::uint32_t node : nodes) tiles_at_[node].push_back(tile);
   note(tile);
-  if (tiles_.size() > 4 * built_for_) build_grid();
 }
 
 void TileMesh::replace(std::uint32_t tile, const Nodes& nodes) {

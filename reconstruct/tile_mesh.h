@@ -82,7 +82,6 @@ class TileMesh {
   void move(std::uint32_t node, const Vec3& place);
   void note_move(std::uint32_t node);
 
-  /// Precondition: no tile was removed since the last compact().
   void add(const Nodes& nodes, FaceKind kind);
   void replace(std::uint32_t tile, const Nodes& nodes);
   /// The tile keeps its number until compact().
@@ -107,7 +106,7 @@ class TileMesh {
   std::uint32_t first_added_;
   std::vector<std::vector<std::uint32_t>> tiles_at_;  // each node
   std::optional<TileGrid> grid_;
-  std::size_t built_for_ = 0;  // tiles
+  std::size_t most_notes_ = 0;  // until the grid is made anew
   std::vector<Corners> corners_;
 };
 
