@@ -40,13 +40,13 @@ constexpr int most_rounds = 5;
 /// Brings edges near a length, by one round of steps or more.
 class Evening {
  public:
-  /// `most_turn`: the angle by which triangles may turn, in radians.
-  Evening(TileMesh& mesh, double length, double most_turn)
+  /// `turn`: the most that a triangle may turn, in radians.
+  Evening(TileMesh& mesh, double length, double turn)
       : mesh_(mesh),
         length_(length),
         most_(most_of_target * length),
         squared_most_(most_ * most_),
-        least_cosine_(std::cos(most_turn)) {}
+        least_cosine_(std::cos(turn)) {}
 
   /// Whether anything but places has changed.
   bool run() {

@@ -11,7 +11,9 @@ namespace loft {
 /// Stenger, 1975: no angle gets smaller than half the smallest one of its tile).
 ///
 /// Guarantees:
-/// - Contour edges stay, whole and unsplit, so slabs stay independent of one another.
+/// - Contour edges stay, whole and unsplit, so slabs stay independent of one another. (Flat caps
+/// lie
+///   in a slice and are not part of a slab: they stay as they are.)
 /// - No inner edge is longer than `max_edge`, but next to longer contour edges, which bound the
 ///   tiles beside them: an inner edge that is still longer has a face with an edge at least as
 ///   long, and so on up to a contour edge. So no inner edge is longer than the longer of `max_edge`

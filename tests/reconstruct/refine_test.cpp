@@ -105,7 +105,8 @@ std::vector<TiledSlab> all_slabs() {
   for (std::uint64_t seed = 0; seed < 12; ++seed) {
     std::mt19937_64 random(seed);
     const Slice lower = stacks::random_slice(0, random, seed % 2 == 0);
-    slabs.emplace_back(lower, stacks::random_slice(1 + 3.0 * (seed % 3), random, seed % 2 == 0));
+    slabs.emplace_back(
+        lower, stacks::random_slice(1 + 3 * static_cast<double>(seed % 3), random, seed % 2 == 0));
   }
   for (std::uint64_t seed = 0; seed < 4; ++seed) {
     std::mt19937_64 random(seed);
@@ -135,7 +136,9 @@ void expect_refined(const TiledSlab& slab, const TileSet& refined, double most) 
   for (const Finding& finding : check(mesh)) {
     EXPECT_NE(finding.fault, Fault::self_intersection);
     EXPECT_NE(finding.fault, Fault::degenerate_face);
-    if (touching == 0) EXPECT_NE(finding.fault, Fault::inconsistent_edge);
+    if (touching == 0) {
+      EXPECT_NE(finding.fault, Fault::inconsistent_edge);
+    }
   }
 }
 
@@ -162,7 +165,9 @@ TEST(Refine, MaxEdgeLeavesALongEdgeOnlyBesideALongerOne) {
       if (slab.in_one_slice(edge.first, edge.second)) continue;
       const double length =
           std::sqrt(squared_length(minus(mesh.points[edge.first], mesh.points[edge.second])));
-      if (length > most) EXPECT_GE(*std::ranges::max_element(longest_beside), length);
+      if (length > most) {
+        EXPECT_GE(*std::ranges::max_element(longest_beside), length);
+      }
     }
   }
 }
