@@ -11,8 +11,8 @@
 
 namespace loft {
 
-/// How well shaped the faces of a mesh are. Angles in degrees: each face counts by its smallest one,
-/// which is 60 at best. All 0 without faces.
+/// How well shaped the faces of a mesh are. Angles in degrees: each face counts by its smallest
+/// one, which is 60 at best. All 0 without faces.
 struct Angles {
   double smallest = 0;
   double fifth_percentile = 0;  ///< one face in 20 has a smaller one; to 0.01 degrees

@@ -32,6 +32,8 @@ class Cancelled : public Error {
 /// it gives that slice's region; every vertex of a clean contour is a vertex of the surface, with
 /// the same coordinates. The result depends on the set of slices and contours, not on their order.
 ///
+/// Options::simplify keeps contours and regions within its distance only; see simplify().
+///
 /// Slices may come in any order of height; those of equal height are merged. Leading and trailing
 /// empty slices are left out.
 /// Throws InputError with all fatal defects: a coordinate that is not finite or of no usable size

@@ -12,7 +12,9 @@ namespace loft {
 /// Stenger, 1975: no angle gets smaller than half the smallest one of its tile).
 ///
 /// Guarantees:
-/// - Contour edges stay, whole and unsplit, so slabs stay independent of one another.
+/// - Contour edges stay, whole and unsplit, so slabs stay independent of one another. (Flat caps
+/// lie
+///   in a slice and are not part of a slab: they stay as they are.)
 /// - No inner edge is longer than `max_edge`, but next to longer contour edges, which bound the
 ///   tiles beside them: an inner edge that is still longer has a face with an edge at least as
 ///   long, and so on up to a contour edge. So no inner edge is longer than the longer of `max_edge`
@@ -27,11 +29,11 @@ namespace loft {
 [[nodiscard]] TileSet split_long_edges(const Region& lower, const Region& upper, TileSet tiles,
                                        double max_edge);
 
-/// Brings the inner edges of a slab near a length, with triangles of good shape (Botsch and Kobbelt,
-/// 2004): edges longer than 4/3 of it are split, like those of split_long_edges(); those of new
-/// vertices that are shorter than 4/5 are collapsed; edges are flipped, and new vertices moved to
-/// the middle of their neighbours, where that makes the smallest angle there larger. Contour
-/// vertices stay, however near to each other; so do the vertices that tiling has added.
+/// Brings the inner edges of a slab near a length, with triangles of good shape (Botsch and
+/// Kobbelt, 2004): edges longer than 4/3 of it are split, like those of split_long_edges(); those
+/// of new vertices that are shorter than 4/5 are collapsed; edges are flipped, and new vertices
+/// moved to the middle of their neighbours, where that makes the smallest angle there larger.
+/// Contour vertices stay, however near to each other; so do the vertices that tiling has added.
 ///
 /// All but the splits move the surface a little. They happen only where no triangle turns by more
 /// than 10 degrees, and where the new triangles meet nothing (exact test). On stacks cut from known

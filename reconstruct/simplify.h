@@ -26,8 +26,9 @@ struct Simplification {
 ///   So the bound is on a one-to-one map between the surfaces, not only on their distance. It
 ///   holds up to the rounding of its own arithmetic.
 /// - A surface without faults stays without: the link condition keeps it manifold, no face turns by
-///   90 degrees or more in a collapse, and new triangles meet others in common corners and edges
-///   only (exact test).
+///   90 degrees or more in a collapse, new triangles meet others in common corners and edges only
+///   (exact test), and nothing is in the way of a collapse, so that what is inside of what stays
+///   the same whatever the tolerance (exact test).
 /// - With tolerance 0 only what changes nothing goes: vertices inside flat parts and on straight
 ///   edges, by exact decision.
 /// - Rims of an open surface, and vertices at the place of another one (where parts touch), stay.

@@ -77,6 +77,67 @@ TEST(Loft, WarnsTwentyTimesOfAKind) {
   EXPECT_EQ(report["parts"][0]["repairs"][0]["contour"], 1);
 }
 
+TEST(Loft, MakesSmallerAndFewerTriangles) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", slice(0, ring(2, 32)) + slice(6, ring(3, 32))));
+  const auto faces = [&](const std::string& option) {
+    const Outcome outcome =
+        run(folder, "reconstruct in.ndjson -o a.ply -o a.gltf --json " + option);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(run(folder, "check a.ply").exit_code, 0) << option;
+    return nlohmann::json::parse(outcome.out)["faces"].get<int>();
+  };
+  const int plain = faces("");
+  EXPECT_GT(faces("--max-edge 1"), plain);
+  EXPECT_GT(faces("--target-edge 1"), plain);
+  EXPECT_LT(faces("--simplify 0.5"), plain);
+}
+
+TEST(Loft, RecordsLengthsInReportsAndFiles) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  const Outcome outcome =
+      run(folder, "reconstruct in.ndjson -o a.gltf -o a.ply --json --simplify 0.1");
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["options"]["simplify"], 0.1);
+  EXPECT_FALSE(report["options"].contains("max_edge"));
+  EXPECT_GE(report["seconds"]["simplify"].get<double>(), 0);
+  const auto gltf = nlohmann::json::parse(content(folder / "a.gltf"));
+  EXPECT_EQ(gltf["asset"]["extras"]["settings"]["simplify"], "0.1");
+}
+
+TEST(Loft, TellsAngles) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  const Outcome made = run(folder, "reconstruct in.ndjson -o a.ply --json");
+  const auto angles = nlohmann::json::parse(made.out)["parts"][0]["angles"];
+  EXPECT_GT(angles["least"].get<double>(), 0);
+  EXPECT_LE(angles["least"], angles["percentile_5"]);
+  EXPECT_LE(angles["percentile_5"], angles["median"]);
+  EXPECT_LE(angles["median"].get<double>(), 60);
+  EXPECT_GE(angles["worst_aspect"].get<double>(), 1);
+  EXPECT_NE(run(folder, "info a.ply").out.find("smallest angles: least "), std::string::npos);
+  EXPECT_EQ(nlohmann::json::parse(run(folder, "info a.ply --json").out)["parts"][0]["angles"],
+            angles);
+}
+
+TEST(Loft, RefusesLengthsThatMakeNoSense) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  for (const char* options :
+       {"--max-edge 0", "--max-edge -1", "--max-edge nan", "--max-edge inf", "--target-edge 0",
+        "--target-edge wide", "--simplify -0.5", "--simplify nan", "--max-edge 1 --target-edge 1",
+        "--max-edge 1 --simplify 1", "--simplify 0 --target-edge 1"}) {
+    const Outcome outcome = run(folder, std::string("reconstruct in.ndjson -o a.ply ") + options);
+    EXPECT_EQ(outcome.exit_code, 2) << options;
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.ply")) << options;
+  }
+  EXPECT_NE(run(folder, "reconstruct in.ndjson -o a.ply --max-edge 0")
+                .err.find("give a number above 0, in the unit of the input"),
+            std::string::npos);
+  EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --max-edge 1e-9").exit_code, 3);
+}
+
 TEST(Loft, ReportsAsJson) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", labelled));

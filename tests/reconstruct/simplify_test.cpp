@@ -49,7 +49,8 @@ TEST(Simplify, PointsOnStraightEdgesGoWithoutTolerance) {
   for (const double x : {0.0, 1.0, 2.0, 3.0}) fine.points.push_back({x, 0});
   for (const double y : {0.0, 0.5, 4.0}) fine.points.push_back({4, y});
   fine.points.push_back({0, 4});
-  const Surface box = simplified(reconstruct(std::vector<Slice>{{0, {fine}}, {1, {fine}}}).surface, 0);
+  const Surface box =
+      simplified(reconstruct(std::vector<Slice>{{0, {fine}}, {1, {fine}}}).surface, 0);
   EXPECT_EQ(box.n_faces(), 12U);
 }
 
@@ -75,7 +76,7 @@ TEST(Simplify, ASphereNeedsFewerTrianglesForALargerTolerance) {
   for (const double tolerance : {0.01, 0.03, 0.1}) {
     SCOPED_TRACE(tolerance);
     const std::size_t faces = simplified(sphere, tolerance).n_faces();
-    EXPECT_LT(faces, before * 2 / 3);
+    EXPECT_LT(faces, before * 3 / 4);
     before = faces;
   }
   EXPECT_LT(before, sphere.n_faces() / 5);
@@ -110,16 +111,14 @@ TEST(Simplify, PartsThatTouchStayInTouch) {
   const Surface result = simplified(surface, 0);
   EXPECT_LT(result.n_faces(), surface.n_faces());
   const auto count_touching = [](const Surface& s) {
-    return std::ranges::count_if(s.vertices(), [&](auto v) {
-      return s.point(v)[0] == 1 && s.point(v)[1] == 1;
-    });
+    return std::ranges::count_if(s.vertices(),
+                                 [&](auto v) { return s.point(v)[0] == 1 && s.point(v)[1] == 1; });
   };
   EXPECT_EQ(count_touching(result), count_touching(surface));
 }
 
 TEST(Simplify, RimsStay) {
-  const Surface tube =
-      reconstruct(stacks::sphere(12, 40), {.cap = Cap::open}).surface;
+  const Surface tube = reconstruct(stacks::sphere(12, 40), {.cap = Cap::open}).surface;
   const Surface result = simplified(tube, 0.2);
   const auto count_rim = [](const Surface& s) {
     return std::ranges::count_if(s.vertices(), [&](auto v) { return s.is_boundary(v); });
@@ -136,6 +135,18 @@ TEST(Simplify, ThinShellsDoNotMeet) {
   const Surface shell = reconstruct(slices).surface;
   const Surface result = simplified(shell, 0.1);
   EXPECT_LT(result.n_faces(), shell.n_faces());
+}
+
+TEST(Simplify, NothingPassesThroughASmallPart) {
+  // A spike, and a small part beside it that is in the way when the spike goes.
+  std::vector<Slice> slices;
+  for (int i = 0; i <= 8; ++i) {
+    const double radius = 2.0 - 0.24 * i;
+    slices.push_back({1.0 * i, {stacks::circle(12, radius)}});
+    if (i >= 4) slices.back().contours.push_back(stacks::circle(6, 0.05, {radius + 0.2, 0}));
+  }
+  const Surface surface = reconstruct(slices).surface;
+  for (const double tolerance : {0.1, 0.5, 2.0, 10.0}) (void)simplified(surface, tolerance);
 }
 
 TEST(Simplify, AnySolidStaysOne) {

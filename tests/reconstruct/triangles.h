@@ -39,8 +39,8 @@ inline std::vector<std::array<Vec3, 3>> by_place(const Surface& surface) {
 inline double distance(const Vec3& p, const Vec3& a, const Vec3& b) {
   const Vec3 along = minus(b, a);
   const double t = std::clamp(dot(minus(p, a), along) / squared_length(along), 0.0, 1.0);
-  return std::sqrt(squared_length(
-      minus(p, {a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]})));
+  return std::sqrt(
+      squared_length(minus(p, {a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]})));
 }
 
 /// To the plane, if the foot is on the inner side of all edges; else to the nearest edge.

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/tile_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "reconstruct/vec3.h"
+
+namespace loft {
+
+namespace {
+
+cdt::Box footprint(const Corners& corners) {
+  cdt::Box box;
+  for (const Vec3& p : corners) box.add({p[0], p[1]});
+  return box;
+}
+
+bool has(const TileMesh::Nodes& nodes, std::uint32_t node) {
+  return std::ranges::find(nodes, node) != nodes.end();
+}
+
+}  // namespace
+
+TileMesh::TileMesh(const Region& lower, const Region& upper, TileSet& tiles)
+    : tiles_(tiles.tiles),
+      inner_(tiles.inner),
+      lower_(lower),
+      upper_(upper),
+      lower_count_(static_cast<std::uint32_t>(lower.points.size())),
+      contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())),
+      first_added_(contour_count_ + static_cast<std::uint32_t>(inner_.size())) {
+  index_tiles();
+}
+
+void TileMesh::index_tiles() {
+  tiles_at_.assign(contour_count_ + inner_.size(), {});
+  for (std::uint32_t t = 0; t < tiles_.size(); ++t)
+    for (const std::uint32_t node : tiles_[t].nodes) tiles_at_[node].push_back(t);
+  build_grid();
+}
+
+/// The grid's cells fit the tiles of the time when it was made. A removed tile has two nodes left.
+void TileMesh::build_grid() {
+  grid_.emplace(tiles_.size(), [this](std::uint32_t t) {
+    const Nodes& nodes = tiles_[t].nodes;
+    return footprint(places({is_removed(t) ? nodes[1] : nodes[0], nodes[1], nodes[2]}));
+  });
+  most_notes_ = 2 * tiles_.size();
+}
+
+TileMesh::Edge TileMesh::edge(std::uint32_t a, std::uint32_t b) const {
+  Vec3 from = place(a);
+  Vec3 to = place(b);
+  if (to < from) {
+    std::swap(a, b);
+    std::swap(from, to);
+  }
+  return {squared_length(minus(to, from)), a, b};
+}
+
+bool TileMesh::is_longer(const Edge& a, const Edge& b) const {
+  if (a.squared_length != b.squared_length) return a.squared_length > b.squared_length;
+  if (a.from != b.from) return place(a.from) < place(b.from);
+  return place(a.to) < place(b.to);
+}
+
+std::vector<TileMesh::Edge> TileMesh::inner_edges() const {
+  std::vector<Edge> edges;
+  std::vector<std::uint32_t> ends;
+  for (std::uint32_t node = 0; node < node_count(); ++node) {
+    ends.clear();
+    for (const std::uint32_t tile : tiles_at(node))
+      for (const std::uint32_t end : tiles_[tile].nodes)
+        if (end > node && !in_one_slice(node, end)) ends.push_back(end);
+    std::ranges::sort(ends);
+    ends.erase(std::unique(ends.begin(), ends.end()), ends.end());
+    for (const std::uint32_t end : ends) edges.push_back(edge(node, end));
+  }
+  return edges;
+}
+
+void TileMesh::find_tiles(const Edge& edge, std::vector<EdgeTile>& found) const {
+  found.clear();
+  std::uint32_t a = edge.from;
+  std::uint32_t b = edge.to;
+  if (tiles_at(b).size() < tiles_at(a).size()) std::swap(a, b);
+  for (const std::uint32_t tile : tiles_at(a)) {
+    const Nodes& nodes = tiles_[tile].nodes;
+    if (!has(nodes, b)) continue;
+    const auto apex = std::ranges::find_if(nodes, [=](auto n) { return n != a && n != b; });
+    found.push_back({tile, *apex});
+  }
+}
+
+bool TileMesh::are_joined(std::uint32_t a, std::uint32_t b) const {
+  return std::ranges::any_of(tiles_at(a), [&](auto tile) { return has(tiles_[tile].nodes, b); });
+}
+
+bool TileMesh::meet_nothing(std::span<const Nodes> triangles, std::span<const EdgeTile> replaced) {
+  corners_.clear();
+  for (const Nodes& nodes : triangles) {
+    const Corners corners = places(nodes);
+    if (collinear(corners[0], corners[1], corners[2])) return false;
+    for (const Corners& other : corners_)
+      if (triangles_meet(corners, other)) return false;
+    corners_.push_back(corners);
+  }
+  const auto is_replaced = [=](std::uint32_t tile) {
+    return std::ranges::any_of(replaced, [=](const EdgeTile& r) { return r.tile == tile; });
+  };
+  return std::ranges::all_of(corners_, [&](const Corners& corners) {
+    return grid_->all_of_near(footprint(corners), [&](std::uint32_t tile) {
+      return is_removed(tile) || is_replaced(tile) ||
+             !triangles_meet(corners, places(tiles_[tile].nodes));
+    });
+  });
+}
+
+std::uint32_t TileMesh::add_node(const Vec3& place) {
+  inner_.push_back({place, VertexKind::steiner});
+  tiles_at_.emplace_back();
+  return node_count() - 1;
+}
+
+void TileMesh::remove_last_node() {
+  inner_.pop_back();
+  tiles_at_.pop_back();
+}
+
+void TileMesh::move(std::uint32_t node, const Vec3& place) {
+  inner_[node - contour_count_].place = place;
+}
+
+void TileMesh::note_move(std::uint32_t node) {
+  for (const std::uint32_t tile : tiles_at(node)) note(tile);
+}
+
+/// Tells the grid where a tile is now; where it was does no harm until there is too much of that.
+void TileMesh::note(std::uint32_t tile) {
+  if (most_notes_-- == 0)
+    build_grid();
+  else
+    grid_->add(tile, footprint(places(tiles_[tile].nodes)));
+}
+
+void TileMesh::add(const Nodes& nodes, FaceKind kind) {
+  const auto tile = static_cast<std::uint32_t>(tiles_.size());
+  tiles_.push_back({nodes, kind});
+  for (const std::uint32_t node : nodes) tiles_at_[node].push_back(tile);
+  note(tile);
+}
+
+void TileMesh::replace(std::uint32_t tile, const Nodes& nodes) {
+  for (const std::uint32_t node : tiles_[tile].nodes) std::erase(tiles_at_[node], tile);
+  tiles_[tile].nodes = nodes;
+  for (const std::uint32_t node : nodes) tiles_at_[node].push_back(tile);
+  note(tile);
+}
+
+void TileMesh::remove(std::uint32_t tile) {
+  for (const std::uint32_t node : tiles_[tile].nodes) std::erase(tiles_at_[node], tile);
+  tiles_[tile].nodes[0] = Origin::none;
+}
+
+void TileMesh::compact() {
+  std::erase_if(tiles_, [](const Tile& tile) { return tile.nodes[0] == Origin::none; });
+  std::vector<std::uint32_t> renumbered(node_count());
+  std::uint32_t count = 0;
+  for (std::uint32_t node = 0; node < node_count(); ++node) {
+    if (is_added(node) && tiles_at(node).empty()) continue;
+    if (node >= contour_count_) inner_[count - contour_count_] = inner_[node - contour_count_];
+    renumbered[node] = count++;
+  }
+  inner_.resize(count - contour_count_);
+  for (Tile& tile : tiles_)
+    for (std::uint32_t& node : tile.nodes) node = renumbered[node];
+  index_tiles();
+}
+
+}  // namespace loft
