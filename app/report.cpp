@@ -53,7 +53,9 @@ CleaningSummary summarize(const std::vector<Defect>& repairs) {
   for (const Defect& repair : repairs) {
     summary.area += repair.area;
     ++summary.counts[loft::name(repair.kind)];
-    auto& slice = slices.try_emplace(repair.slice, repair.slice, repair.z).first->second;
+    auto& slice = slices[repair.slice];
+    slice.slice = repair.slice;
+    slice.z = repair.z;
     ++slice.repairs;
     slice.area += repair.area;
   }

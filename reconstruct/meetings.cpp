@@ -345,8 +345,9 @@ class Search {
     });
     std::vector<ConstraintId> result;
     const bool is_corner = !corner_of_[v.index()].is_none();
-    for (const auto& [ring, passages] : here) {
-      if (passages <= 2) continue;
+    for (const auto& entry : here) {
+      const ConstraintId ring = entry.first;
+      if (entry.second <= 2) continue;
       if (!is_corner) {
         result.push_back(ring);
         continue;

@@ -56,6 +56,13 @@ const std::string holes = "[[0, 0], [9, 0], [9, 9], [0, 9]], [[3, 3], [6, 3], [6
 const std::string touching = "[[0, 0], [4, 0], [4, 4], [0, 4]], [[4, 4], [8, 4], [8, 8], [4, 8]]";
 const std::string overlapping = ring(5, 16, 0, 0) + ", " + ring(5, 16, 4, 0);
 
+const std::string squared = "[0, 0], [9, 0], [9, 9], [0, 9]";
+/// A square with a square hole, drawn as one line: in at a corner, and out `width` to the right.
+std::string keyhole(const std::string& width) {
+  return "[[0, 0], [3, 3], [3, 6], [6, 6], [6, 3], [3." + width.substr(width.find('.') + 1) +
+         ", 3], [0." + width.substr(width.find('.') + 1) + ", 0], [9, 0], [9, 9], [0, 9]]";
+}
+
 const std::vector<Case> cases{
     {"Clean", barrel(), {}, barrel()},
     {"SelfCrossing",
@@ -103,6 +110,25 @@ const std::vector<Case> cases{
     // By parity two overlapping discs leave two crescents, which touch in two points.
     {"OverlappingContours", each(overlapping), {"overlap"}, {}, 0, 2},
     {"OverlappingContoursNonzero", each(overlapping), {"overlap"}, {}, 0, 1, 0, "--fill nonzero"},
+    {"KeyholeWithoutWidth", each(keyhole("0")), {"spike"}, {}, 0, 1, 1},
+    {"SlitOfAKeyhole", each(keyhole("0.001")), {}, {}, 0, 1, 0},
+    {"KeyholeCut",
+     each(keyhole("0.001")),
+     {"keyhole"},
+     each(keyhole("0")),
+     1e-3,
+     1,
+     1,
+     "--fill keyhole-aware"},
+    {"KeyholeWiderThanAskedFor",
+     each(keyhole("0.001")),
+     {},
+     {},
+     0,
+     1,
+     0,
+     "--fill keyhole-aware --keyhole-width 1e-4"},
+    {"TwiceRound", each("[" + squared + ", " + squared + "]"), {"repeated_contour"}, {}},
     {"TinyUnits", slice(0, ring(1e-5)) + slice(1e-6, ring(2e-5)) + slice(2e-6, ring(1e-5)), {}, {}},
     {"HugeUnits", slice(0, ring(1e9)) + slice(1e8, ring(2e9)) + slice(2e8, ring(1e9)), {}, {}},
 };

@@ -203,6 +203,35 @@ TEST(Loft, ChecksFailWhereTheSurfaceIsOpen) {
   EXPECT_NE(outcome.out.find("boundary_edge: 16"), std::string::npos) << outcome.out;
 }
 
+TEST(Loft, TellsTouchingFromCrossing) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", slice(0, ring(1, 4) + ", " + ring(1, 4, 2, 0)) +
+                                                  slice(1, ring(1, 4) + ", " + ring(1, 4, 2, 0))));
+  ASSERT_EQ(run(folder, "reconstruct in.ndjson -o a.off --quiet").exit_code, 0);
+  const Outcome outcome = run(folder, "check a.off");
+  EXPECT_EQ(outcome.exit_code, 0);
+  EXPECT_NE(outcome.out.find("touches itself in 2 points and 1 edges"), std::string::npos)
+      << outcome.out;
+  const auto report = nlohmann::json::parse(run(folder, "check a.off --json").out);
+  EXPECT_EQ(report["parts"][0]["touching"]["points"], 2);
+  EXPECT_EQ(report["parts"][0]["touching"]["edges"], 1);
+}
+
+TEST(Loft, SumsUpTheCleaning) {
+  const Folder folder;
+  const std::string crossing = "[[0, 0], [4, 0], [4, 4], [0, 4]], [[3, 3], [7, 3], [7, 7], [3, 7]]";
+  static_cast<void>(folder.write("in.ndjson", slice(0, crossing) + slice(1, crossing)));
+  const Outcome outcome = run(folder, "reconstruct in.ndjson -o a.ply --json");
+  EXPECT_NE(outcome.err.find("cleaning: 2 overlap in 2 slices; area in question 2"),
+            std::string::npos)
+      << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out)["parts"][0]["cleaning"];
+  EXPECT_EQ(report["area"], 2);
+  EXPECT_EQ(report["counts"]["overlap"], 2);
+  EXPECT_EQ(report["slices"][1]["slice"], 1);
+  EXPECT_EQ(report["slices"][1]["area"], 1);
+}
+
 TEST(Loft, ShowsWhatIsInAStack) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", labelled + "\n" + slice(4, "")));
