@@ -120,6 +120,7 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
   json["options"] = {{"fill", name(command.options.fill)},
                      {"cap", name(command.options.cap)},
                      {"metres_per_unit", command.metres_per_unit}};
+  json["out_of_core"] = report.is_out_of_core;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;

@@ -45,6 +45,7 @@ struct PartReport {
 ///     schema "loft-reconstruct", schema_version 1, loft (version)
 ///     inputs, outputs      file names
 ///     options              fill, cap, metres_per_unit
+///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
 ///     seconds              of each stage: read, clean, tile, sew, write, total
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
@@ -58,6 +59,7 @@ struct Report {
   StackSize input;
   std::vector<PartReport> parts;
   std::map<std::string, double> seconds;
+  bool is_out_of_core = false;
 };
 
 [[nodiscard]] std::string to_json(const Report& report, const ReconstructCommand& command);

@@ -21,11 +21,16 @@ constexpr double end_turn = 0.75;
 /// No tangent is flatter than that, in radians.
 constexpr double steepest = 1.5;
 
-/// Heights of ends as shares of the slab. What to expect where there is no trend is what ends
-/// without --smooth have (see SheetHeights).
-constexpr double lowest_end = 0.1;
-constexpr double expected_end = 0.7;
-constexpr double highest_end = 0.75;
+/// Bounds of the heights of ends, as shares of the slab: where the slice before tells a trend;
+/// where it tells that the part is new (see SheetHeights for the reason); at the end of the stack,
+/// where nothing is known.
+struct Bounds {
+  double lowest;
+  double highest;
+};
+constexpr Bounds with_trend{0.1, 0.75};
+constexpr Bounds single{0.7, 0.75};
+constexpr Bounds unknown{0.5, 0.5};
 
 /// From one slice to the next at one place: how the distance changes with z.
 struct Chord {
@@ -92,8 +97,7 @@ Sample SmoothPassage::at(const Vec3& p) const {
   for (std::size_t i = 0; i < 4; ++i) {
     if (!has(i)) continue;
     const double share = (z(i) - p[2]) / gap;
-    const auto found =
-        slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y});
+    const auto found = slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y});
     distances[i] = found.distance;
     directions[i] = found.outward;
   }
@@ -110,10 +114,11 @@ Sample SmoothPassage::at(const Vec3& p) const {
   const double lower_rise = u * (1 - 3 * t);
   const double upper_rise = t * (3 * t - 2);
 
-  Sample sample{from_lower * distances[1] + from_upper * distances[2] +
-                  lower_tangent * lower.slope + upper_tangent * upper.slope,
-              {0, 0, rise * (distances[2] - distances[1]) + lower_rise * lower.slope +
-                         upper_rise * upper.slope}};
+  Sample sample{
+      from_lower * distances[1] + from_upper * distances[2] + lower_tangent * lower.slope +
+          upper_tangent * upper.slope,
+      {0, 0,
+       rise * (distances[2] - distances[1]) + lower_rise * lower.slope + upper_rise * upper.slope}};
   const Weights base{0, from_lower, from_upper, 0};
   for (std::size_t i = 0; i < 4; ++i) {
     const double weight =
@@ -129,18 +134,18 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
     : slice_(slices[slice]), upwards_(slice == 1 ? 1 : -1), depth_(depth), trend_(0) {
   const double height = slices[2]->z - slices[1]->z;
   const SliceShape* before = slices[slice == 1 ? 0 : 3];
-  double lowest = expected_end;
+  Bounds bounds = before == nullptr ? unknown : single;
   if (before != nullptr && !before->distance.is_empty()) {
     const double gap = std::abs(slice_->z - before->z);
     const bool is_solid = slice_->distance.at(middle).distance < 0;
     const double there = before->distance.at(middle).distance * (is_solid ? -1 : 1);
     if (there > 0) {
       trend_ = (depth * depth - there * there - gap * gap) / gap;
-      lowest = lowest_end;
+      bounds = with_trend;
     }
   }
   const double top = (trend_ + std::hypot(trend_, 2 * depth)) / 2;
-  scale_ = std::clamp(top, lowest * height, highest_end * height) / top;
+  scale_ = std::clamp(top, bounds.lowest * height, bounds.highest * height) / top;
 }
 
 Sample SmoothEnd::at(const Vec3& p) const {
@@ -150,8 +155,7 @@ Sample SmoothEnd::at(const Vec3& p) const {
   const double root = std::sqrt(trend_ * trend_ + 4 * squared);
   const double height = scale_ * (trend_ + root) / 2;
   const double slope = scale_ * 2 * from_axis / root * (distance < 0 ? 1 : -1);
-  return {upwards_ * (p[2] - slice_->z) - height,
-          {slope * outward.x, slope * outward.y, upwards_}};
+  return {upwards_ * (p[2] - slice_->z) - height, {slope * outward.x, slope * outward.y, upwards_}};
 }
 
 }  // namespace loft

@@ -38,7 +38,8 @@ struct Sample {
 /// disregards a slice in which there is nothing near. Reads one slice on either side of the slab.
 class SmoothPassage {
  public:
-  /// The slab is sheared: what is at p in the lower slice is expected at p + shift in the upper one.
+  /// The slab is sheared: what is at p in the lower slice is expected at p + shift in the upper
+  /// one.
   explicit SmoothPassage(const Surroundings& slices, cdt::Point shift = {});
 
   /// Cost: that of a query of each slice. The gradient is approximate: it takes the tangents for
@@ -65,7 +66,8 @@ class SmoothPassage {
 /// A spheroid standing on the contours: at the depth d of a place below the part's boundary, as
 /// high as a ball is at r - d from its axis, r the part's largest depth. How fast the ball shrinks
 /// is read from the slice before: how deep the part's middle is there. The height is kept within
-/// the slab; where the slice before has nothing there, at least 0.7 of it.
+/// the slab; where the slice before has nothing there it is 0.7 of it or a little more, where there
+/// is no slice before, half of it.
 class SmoothEnd {
  public:
   /// On slice 1 or 2 of the surroundings; `middle` is where the part is deepest, `depth` deep.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/signed_distance.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#include "cdt/predicates.h"
+#include "reconstruct/nearest.h"
+#include "tests/reconstruct/stacks.h"
+
+namespace loft {
+namespace {
+
+Region clean_slice(const Slice& slice) {
+  std::vector<ContourSource> sources;
+  for (std::uint32_t c = 0; c < slice.contours.size(); ++c)
+    sources.push_back({slice.contours[c].points, 0, c});
+  std::vector<Defect> repairs;
+  return clean(sources, slice.z, Fill::even_odd, repairs);
+}
+
+/// By every edge: the distance, and the parity of those that a ray from p crosses.
+double brute_force(const Region& region, cdt::Point p) {
+  double least = std::numeric_limits<double>::infinity();
+  bool is_inside = false;
+  for (std::size_t i = 0; i < region.loop_count(); ++i) {
+    const auto loop = region.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const cdt::Point a = region.points[loop[k]];
+      const cdt::Point b = region.points[loop[(k + 1) % loop.size()]];
+      least = std::min(least, distance(p, a, b));
+      if ((a.y > p.y) != (b.y > p.y) && (cdt::orient(a, b, p) > 0) == (b.y > a.y))
+        is_inside = !is_inside;
+    }
+  }
+  return is_inside ? -least : least;
+}
+
+TEST(SignedDistance, IsThatOfEveryEdge) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const Region region =
+        clean_slice(seed % 3 == 0 ? stacks::random_mask(0, random, 6, 0.5)
+                                  : stacks::random_slice(0, random, seed % 3 == 1));
+    const SignedDistance signed_distance(region);
+    ASSERT_EQ(signed_distance.is_empty(), region.is_empty());
+    if (region.is_empty()) continue;
+    std::uniform_real_distribution<double> anywhere(-1, 8);
+    for (int i = 0; i < 200; ++i) {
+      const cdt::Point p{anywhere(random), anywhere(random)};
+      EXPECT_NEAR(signed_distance.at(p).distance, brute_force(region, p), 1e-12) << p;
+    }
+  }
+}
+
+TEST(SignedDistance, GrowsOutwards) {
+  const SignedDistance square(clean_slice({0, {stacks::square(1)}}));
+  const auto inside = square.at({0.75, 0.1});
+  EXPECT_EQ(inside.distance, -0.25);
+  EXPECT_DOUBLE_EQ(inside.outward.x, 1);
+  EXPECT_NEAR(inside.outward.y, 0, 1e-15);
+  const auto outside = square.at({4, 5});
+  EXPECT_EQ(outside.distance, 5);
+  EXPECT_DOUBLE_EQ(outside.outward.x, 0.6);
+  EXPECT_DOUBLE_EQ(outside.outward.y, 0.8);
+  const auto upon = square.at({-1, 0.5});
+  EXPECT_EQ(upon.distance, 0);
+  EXPECT_EQ(upon.outward, cdt::Point(-1, 0));
+}
+
+// A corner that two loops share: which of its edges is nearest decides on the side.
+TEST(SignedDistance, KnowsItsSideAtCornersThatTouch) {
+  const SignedDistance touching(
+      clean_slice({0, {stacks::square(1, {-1, -1}), stacks::square(1, {1, 1})}}));
+  EXPECT_GT(touching.at({-0.1, 0.1}).distance, 0);
+  EXPECT_GT(touching.at({0.1, -0.1}).distance, 0);
+  EXPECT_LT(touching.at({0.1, 0.2}).distance, 0);
+  EXPECT_LT(touching.at({-0.1, -0.2}).distance, 0);
+}
+
+}  // namespace
+}  // namespace loft

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/smooth.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <set>
+
+#include "reconstruct/check.h"
+#include "reconstruct/measure.h"
+#include "reconstruct/reconstruct.h"
+#include "tests/reconstruct/stacks.h"
+
+namespace loft {
+namespace {
+
+using std::numbers::pi;
+
+Surface make(const std::vector<Slice>& slices, bool is_smooth, Cap cap = Cap::flat) {
+  return reconstruct(slices, {.cap = cap, .smooth = is_smooth}).surface;
+}
+
+double volume(const Surface& surface) { return measure(to_mesh(surface)).volume; }
+
+/// Every contour edge of a clean stack is an edge of the surface, in one piece.
+void expect_contour_edges(const std::vector<Slice>& slices, const Surface& surface) {
+  std::map<OpenMesh::Vec3d, OpenMesh::SmartVertexHandle> vertices;
+  for (const auto v : surface.vertices()) vertices.emplace(surface.point(v), v);
+  for (const Slice& slice : slices) {
+    for (const Contour& contour : slice.contours) {
+      for (std::size_t i = 0; i < contour.points.size(); ++i) {
+        const cdt::Point a = contour.points[i];
+        const cdt::Point b = contour.points[(i + 1) % contour.points.size()];
+        const auto from = vertices.find({a.x, a.y, slice.z});
+        const auto to = vertices.find({b.x, b.y, slice.z});
+        ASSERT_TRUE(from != vertices.end() && to != vertices.end());
+        EXPECT_TRUE(surface.find_halfedge(from->second, to->second).is_valid());
+      }
+    }
+  }
+}
+
+/// The mean over the vertices and middles of edges of how far they are from a ball's surface.
+double mean_error(const Surface& surface, double radius, double highest) {
+  double sum = 0;
+  double count = 0;
+  const auto look = [&](const OpenMesh::Vec3d& p) {
+    if (std::abs(p[2]) > highest) return;
+    sum += std::abs(p.norm() - radius);
+    ++count;
+  };
+  for (const auto v : surface.vertices()) look(surface.point(v));
+  for (const auto e : surface.edges()) look(surface.calc_edge_midpoint(e));
+  return sum / count;
+}
+
+TEST(Smooth, ABallIsSeveralTimesRounder) {
+  const auto slices = stacks::sphere(8, 200);
+  const Surface plain = make(slices, false);
+  const Surface bent = make(slices, true);
+  EXPECT_TRUE(check(bent).empty());
+  expect_contour_edges(slices, bent);
+  const double highest = slices.back().z;
+  EXPECT_LT(mean_error(bent, 1, highest), mean_error(plain, 1, highest) / 4);
+  const double between = pi * (2 * highest - 2 * std::pow(highest, 3) / 3);
+  EXPECT_LT(std::abs(volume(bent) - between), std::abs(volume(plain) - between) / 4);
+}
+
+// Of a dense stack every third slice is kept; the others tell the volume.
+TEST(Smooth, ATorusOnEdgeComesNearerToItsVolume) {
+  const auto dense = stacks::Torus::slices(36, 60);
+  std::vector<Slice> kept;
+  for (std::size_t i = 1; i < dense.size(); i += 3) kept.push_back(dense[i]);
+  const Surface plain = make(kept, false);
+  const Surface bent = make(kept, true);
+  EXPECT_TRUE(check(bent).empty());
+  expect_contour_edges(kept, bent);
+  EXPECT_EQ(measure(to_mesh(bent)).genus, 1);
+  const double between = volume(make({dense.begin() + 1, dense.end() - 1}, true));
+  EXPECT_LT(std::abs(volume(bent) - between), std::abs(volume(plain) - between) / 2);
+}
+
+// A cone's distances are linear in z, a prism's do not change: there is nothing to bend.
+TEST(Smooth, WhatIsStraightStaysStraight) {
+  std::vector<Slice> cone;
+  std::vector<Slice> prism;
+  for (int i = 0; i < 5; ++i) {
+    cone.push_back({static_cast<double>(i), {stacks::circle(60, 10 - i)}});
+    prism.push_back({static_cast<double>(i), {stacks::square(2)}});
+  }
+  for (const auto& slices : {cone, prism})
+    EXPECT_EQ(to_mesh(make(slices, true)), to_mesh(make(slices, false)));
+}
+
+/// A ball whose last slices are its poles' caps: the dome above them has their curvature.
+TEST(Smooth, EndsGoOnAsTheSlicesBeforeThem) {
+  std::vector<Slice> slices;
+  const double gap = 0.25;
+  for (double z = -0.875; z < 1; z += gap)
+    slices.push_back({z, {stacks::circle(200, std::sqrt(1 - z * z))}});
+  const Surface bent = make(slices, true, Cap::dome);
+  EXPECT_TRUE(check(bent).empty());
+  double top = 0;
+  for (const auto v : bent.vertices()) top = std::max(top, bent.point(v)[2]);
+  EXPECT_NEAR(top, 1, 0.1 * gap);
+  EXPECT_NEAR(volume(bent), 4 * pi / 3, 0.01 * 4 * pi / 3);
+}
+
+// A hole that is a ball's half.
+TEST(Smooth, AHoleThatEndsIsRoundedToo) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 6; ++i) {
+    Slice slice{static_cast<double>(i), {stacks::square(10)}};
+    if (i < 3) slice.contours.push_back(stacks::circle(60, std::sqrt(6.76 - i * i)));
+    slices.push_back(slice);
+  }
+  const Surface bent = make(slices, true);
+  EXPECT_TRUE(check(bent).empty());
+  expect_contour_edges(slices, bent);
+  double top = 0;
+  for (const auto v : bent.vertices())
+    if (bent.point(v)[2] < 3) top = std::max(top, bent.point(v)[2]);
+  EXPECT_NEAR(top, 2.6, 0.05);
+}
+
+/// The triangles of each slab, by places.
+std::map<std::uint32_t, std::set<std::set<OpenMesh::Vec3d>>> slabs(const Surface& surface) {
+  std::map<std::uint32_t, std::set<std::set<OpenMesh::Vec3d>>> found;
+  for (const auto f : surface.faces()) {
+    std::set<OpenMesh::Vec3d> corners;
+    for (const auto v : surface.fv_range(f)) corners.insert(surface.point(v));
+    found[surface.data(f).slab].insert(corners);
+  }
+  return found;
+}
+
+TEST(Smooth, AnEditOfASliceChangesFourSlabs) {
+  auto slices = stacks::sphere(12, 50);
+  const auto before = slabs(make(slices, true));
+  for (cdt::Point& p : slices[6].contours[0].points) p.x *= 1.1;
+  const auto after = slabs(make(slices, true));
+  ASSERT_EQ(before.size(), 11);
+  for (const auto& [slab, triangles] : before)
+    EXPECT_EQ(triangles == after.at(slab), slab < 4 || slab > 7) << slab;
+}
+
+// Between them a bent surface would leave one and enter the other.
+TEST(Smooth, ShellsThinnerThanTheirBendDoNotMeet) {
+  for (const double thickness : {0.1, 0.01, 1e-4}) {
+    const double turn = thickness > 0.05 ? 0.05 : 0;  // thinner ones would cross
+    std::vector<Slice> slices;
+    for (int i = -4; i <= 4; ++i) {
+      const double outer = std::sqrt(25 - i * i);
+      slices.push_back(
+          {static_cast<double>(i),
+           {stacks::circle(40, outer), stacks::circle(40, outer - thickness, {}, turn)}});
+    }
+    const Surface bent = make(slices, true);
+    EXPECT_TRUE(check(bent).empty()) << thickness;
+    expect_contour_edges(slices, bent);
+  }
+}
+
+TEST(Smooth, AnyContoursMakeASolid) {
+  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    std::vector<Slice> slices;
+    for (int i = 0; i < 4; ++i)
+      slices.push_back(seed % 3 == 0 ? stacks::random_mask(i, random, 6, 0.4)
+                                     : stacks::random_slice(i, random, seed % 3 == 1));
+    try {
+      EXPECT_TRUE(check(make(slices, true)).empty());
+    } catch (const InputError&) {
+      // Fewer than two slices with an area: rare, and right.
+    }
+  }
+}
+
+}  // namespace
+}  // namespace loft
