@@ -88,12 +88,17 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "Threads that work at the same time; 0 (default): as many as the machine has")
       ->type_name("N")
       ->check(CLI::Range(0U, 1024U));
-  const auto memory = [&command](Memory choice) { return [&command, choice] { command.memory = choice; }; };
-  CLI::Option* const out = sub->add_flag_callback(
-      "--out-of-core", memory(Memory::out_of_core),
-      "Leave the stack in its file and work slab by slab, in little memory; one output, a PLY file, "
-      "the same as otherwise. The default for inputs above " + std::to_string(most_in_memory >> 20U) + " MiB");
-  sub->add_flag_callback("--in-memory", memory(Memory::in_memory), "Read the stack as a whole, whatever its size")
+  const auto memory = [&command](Memory choice) {
+    return [&command, choice] { command.memory = choice; };
+  };
+  CLI::Option* const out =
+      sub->add_flag_callback("--out-of-core", memory(Memory::out_of_core),
+                             "Leave the stack in its file and work slab by slab, in little memory; "
+                             "one output, a PLY file, "
+                             "the same as otherwise. The default for inputs above " +
+                                 std::to_string(most_in_memory >> 20U) + " MiB");
+  sub->add_flag_callback("--in-memory", memory(Memory::in_memory),
+                         "Read the stack as a whole, whatever its size")
       ->excludes(out);
   sub->add_option_function<std::string>(
          "--unit",

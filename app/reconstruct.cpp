@@ -93,7 +93,7 @@ struct Result {
 
 /// All labels, or one InputError for all that cannot be reconstructed.
 std::list<Result> reconstruct_all(const ReconstructCommand& command,
-                                    const std::vector<Slice>& stack, Terminal& terminal) {
+                                  const std::vector<Slice>& stack, Terminal& terminal) {
   std::vector<std::string> names = labels(stack);
   if (names.empty()) names.emplace_back();
   const bool is_labelled = names.size() > 1 || !names[0].empty();

@@ -34,7 +34,7 @@ class Terminal {
   bool quiet_;
   bool has_bar_;
   bool has_colour_;
-  std::string bar_;  // what is drawn now
+  std::string bar_;                              // what is drawn now
   std::chrono::steady_clock::time_point begin_;  // of the task
 };
 

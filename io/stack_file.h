@@ -14,7 +14,8 @@
 
 namespace loft::io {
 
-/// A stack that stays in its files: it knows where each slice is, and reads it when it is asked for.
+/// A stack that stays in its files: it knows where each slice is, and reads it when it is asked
+/// for.
 class StackFile {
  public:
   /// Gets to see each slice once, in order, and the share of the input that has been read.
