@@ -23,13 +23,14 @@ namespace {
 struct Verdict {
   std::string label;
   Measures measures;
+  Contacts contacts;
   std::map<Fault, std::vector<Finding>> faults;
 };
 
 std::vector<Verdict> judge(const std::vector<io::LabelledMesh>& meshes) {
   std::vector<Verdict> verdicts;
   for (const auto& [label, mesh] : meshes) {
-    Verdict verdict{label, measure(mesh), {}};
+    Verdict verdict{label, measure(mesh), contacts(mesh), {}};
     for (Finding& finding : check(mesh))
       verdict.faults[finding.fault].push_back(std::move(finding));
     verdicts.push_back(std::move(verdict));
@@ -50,10 +51,19 @@ std::string where(const Finding& finding) {
   return text;
 }
 
+/// Touching is no fault.
+void print_contacts(const Contacts& contacts) {
+  if (contacts.points == 0) return;
+  std::cout << "  touches itself in " << grouped(contacts.points) << " points and "
+            << grouped(contacts.edges) << " edges, which is allowed; first at ("
+            << contacts.first[0] << ", " << contacts.first[1] << ", " << contacts.first[2] << ")\n";
+}
+
 void print_verdict(const std::string& name, const Verdict& verdict) {
   std::cout << name << (verdict.label.empty() ? "" : " '" + verdict.label + "'")
             << (verdict.faults.empty() ? ": a valid solid\n" : ": not a valid solid\n");
   std::cout << "  " << describe(verdict.measures) << '\n';
+  print_contacts(verdict.contacts);
   for (const auto& [fault, findings] : verdict.faults) {
     std::cout << "  " << loft::name(fault) << ": " << grouped(findings.size()) << ", first at"
               << where(findings.front()) << '\n';
@@ -76,7 +86,8 @@ void print_fidelity(const std::string& name, const Fidelity& fidelity, bool is_e
 }
 
 /// The object that `loft check --json` prints: schema "loft-check", schema_version 1, mesh, valid,
-/// parts (label, valid, counts and measures, faults by name), stack (name, counts).
+/// parts (label, valid, counts and measures, touching: points and edges, faults by name), stack
+/// (name, counts). Faces that cross are the fault self_intersection; touching is none.
 Json to_json(const CheckCommand& command, const std::vector<Verdict>& verdicts,
              const std::optional<Fidelity>& fidelity) {
   Json json;
@@ -90,6 +101,7 @@ Json to_json(const CheckCommand& command, const std::vector<Verdict>& verdicts,
     part["label"] = verdict.label;
     part["valid"] = verdict.faults.empty();
     add_measures(part, verdict.measures);
+    part["touching"] = {{"points", verdict.contacts.points}, {"edges", verdict.contacts.edges}};
     part["faults"] = Json::object();
     for (const auto& [fault, findings] : verdict.faults) {
       part["faults"][loft::name(fault)] = findings.size();

@@ -68,12 +68,20 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   sub->add_option_function<std::string>(
          "--fill",
          [&command](const std::string& fill) {
-           command.options.fill = fill == "nonzero" ? loft::Fill::nonzero : loft::Fill::even_odd;
+           command.options.fill = fill == "nonzero"   ? loft::Fill::nonzero
+                                  : fill == "evenodd" ? loft::Fill::even_odd
+                                                      : loft::Fill::keyhole_aware;
          },
-         "What is inside: nested contours are holes (evenodd, default), or overlapping ones make "
-         "their union (nonzero)")
+         "What is inside: nested contours are holes (evenodd, default), overlapping ones make "
+         "their union (nonzero), or as evenodd with holes that a channel joins to their outline "
+         "taken out (keyhole-aware)")
       ->type_name("RULE")
-      ->check(CLI::IsMember({"evenodd", "nonzero"}));
+      ->check(CLI::IsMember({"evenodd", "nonzero", "keyhole-aware"}));
+  sub->add_option("--keyhole-width", command.options.keyhole_width,
+                  "How wide such a channel may be, in the unit of the input (default 1/1000 of "
+                  "the contour's diagonal)")
+      ->type_name("LENGTH")
+      ->check(CLI::NonNegativeNumber);
   sub->add_option_function<std::string>(
          "--cap",
          [&command](const std::string& cap) {

@@ -154,8 +154,11 @@ void write_all(const ReconstructCommand& command, const std::list<Result>& resul
 }
 
 void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
-  for (const PartReport& part : report.parts)
-    terminal.say((part.label.empty() ? "" : part.label + ": ") + describe(part.measures));
+  for (const PartReport& part : report.parts) {
+    const std::string prefix = part.label.empty() ? "" : part.label + ": ";
+    terminal.say(prefix + describe(part.measures));
+    if (!part.repairs.empty()) terminal.say(prefix + describe(summarize(part.repairs)));
+  }
   for (const path& output : command.outputs) terminal.say("wrote " + output.string());
 }
 

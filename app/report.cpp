@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/report.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -31,7 +33,46 @@ std::array<std::size_t, 4> count_kinds(const Surface& surface) {
   return counts;
 }
 
-const char* name(Fill fill) { return fill == Fill::even_odd ? "evenodd" : "nonzero"; }
+const char* name(Fill fill) {
+  switch (fill) {
+    case Fill::even_odd:
+      return "evenodd";
+    case Fill::nonzero:
+      return "nonzero";
+    case Fill::keyhole_aware:
+      break;
+  }
+  return "keyhole-aware";
+}
+
+CleaningSummary summarize(const std::vector<Defect>& repairs) {
+  CleaningSummary summary;
+  std::map<std::uint32_t, CleaningSummary::Slice> slices;
+  for (const Defect& repair : repairs) {
+    summary.area += repair.area;
+    ++summary.counts[loft::name(repair.kind)];
+    auto& slice = slices.try_emplace(repair.slice, repair.slice, repair.z).first->second;
+    ++slice.repairs;
+    slice.area += repair.area;
+  }
+  for (const auto& [number, slice] : slices) summary.slices.push_back(slice);
+  std::ranges::stable_sort(summary.slices, {}, &CleaningSummary::Slice::z);
+  return summary;
+}
+
+std::string describe(const CleaningSummary& summary) {
+  std::string text = "cleaning:";
+  for (const auto& [kind, count] : summary.counts)
+    text += (text.back() == ':' ? " " : ", ") + grouped(count) + ' ' + kind;
+  text += " in " + grouped(summary.slices.size()) +
+          (summary.slices.size() == 1 ? " slice" : " slices") + "; area in question " +
+          rounded(summary.area);
+  const auto worst = std::ranges::max_element(summary.slices, {}, &CleaningSummary::Slice::area);
+  if (worst != summary.slices.end() && worst->area > 0 && summary.slices.size() > 1)
+    text += ", most in slice " + std::to_string(worst->slice) + " (z = " + rounded(worst->z) +
+            "): " + rounded(worst->area);
+  return text;
+}
 
 const char* name(Cap cap) {
   switch (cap) {
@@ -74,6 +115,16 @@ Json to_json(const Defect& defect) {
   return json;
 }
 
+Json to_json(const CleaningSummary& summary) {
+  Json json;
+  json["area"] = summary.area;
+  json["counts"] = summary.counts;
+  json["slices"] = Json::array();
+  for (const auto& [slice, z, repairs, area] : summary.slices)
+    json["slices"].push_back({{"slice", slice}, {"z", z}, {"repairs", repairs}, {"area", area}});
+  return json;
+}
+
 void add_size(Json& json, const StackSize& size) {
   json["slices"] = size.slices;
   json["contours"] = size.contours;
@@ -89,6 +140,7 @@ Json to_json(const PartReport& part) {
   const auto& [contour, cleaning, crossing, steiner] = part.vertices_of_kind;
   json["vertices_of_kind"] = {
       {"contour", contour}, {"cleaning", cleaning}, {"crossing", crossing}, {"steiner", steiner}};
+  json["cleaning"] = to_json(summarize(part.repairs));
   json["repairs"] = Json::array();
   for (const Defect& repair : part.repairs) json["repairs"].push_back(to_json(repair));
   return json;
@@ -117,9 +169,12 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
   json["loft"] = io::version();
   json["inputs"] = names(command.inputs);
   json["outputs"] = names(command.outputs);
-  json["options"] = {{"fill", name(command.options.fill)},
-                     {"cap", name(command.options.cap)},
-                     {"metres_per_unit", command.metres_per_unit}};
+  json["options"] = {
+      {"fill", name(command.options.fill)},
+      {"keyhole_width",
+       command.options.keyhole_width ? Json(*command.options.keyhole_width) : Json()},
+      {"cap", name(command.options.cap)},
+      {"metres_per_unit", command.metres_per_unit}};
   json["out_of_core"] = report.is_out_of_core;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -28,6 +29,23 @@ struct StackSize {
 [[nodiscard]] StackSize size_of(const std::vector<Slice>& stack,
                                 const std::optional<std::string>& label = std::nullopt);
 
+/// What cleaning did, in all and slice by slice.
+struct CleaningSummary {
+  struct Slice {
+    std::uint32_t slice = 0;  ///< index in the input
+    double z = 0;
+    std::size_t repairs = 0;
+    double area = 0;
+  };
+  double area = 0;                            ///< sum of the repairs' areas
+  std::map<std::string, std::size_t> counts;  ///< by kind of repair
+  std::vector<Slice> slices;                  ///< those with repairs, by height
+};
+
+[[nodiscard]] CleaningSummary summarize(const std::vector<Defect>& repairs);
+/// `cleaning: 2 overlap, 1 spike in 3 slices; area in question 4.5, most in slice 7 (z = 3.5): 4`
+[[nodiscard]] std::string describe(const CleaningSummary& summary);
+
 /// One reconstructed label.
 struct PartReport {
   std::string label;
@@ -44,17 +62,18 @@ struct PartReport {
 ///
 ///     schema "loft-reconstruct", schema_version 1, loft (version)
 ///     inputs, outputs      file names
-///     options              fill, cap, metres_per_unit
+///     options              fill, keyhole_width (null: by default), cap, metres_per_unit
 ///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
 ///     seconds              of each stage: read, clean, tile, sew, write, total
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, seconds, vertices_of_kind (contour,
-///                          cleaning, crossing, steiner), repairs (a list)
+///                          cleaning, crossing, steiner), cleaning (area; counts by kind; slices: a
+///                          list of slice, z, repairs, area), repairs (a list)
 ///
 /// A repair: kind, slice (index in the input), z, contour, point, place [x, y] (null where not
-/// known), area (changed), message. Lengths in the unit of the input. Later versions of the schema
-/// may add keys.
+/// known), area (that it decided: see Defect), message. Lengths in the unit of the input. Later
+/// versions of the schema may add keys.
 struct Report {
   StackSize input;
   std::vector<PartReport> parts;

@@ -186,7 +186,6 @@ Triangulation::Obstacle Triangulation::walk(VertexId from, VertexId to, Point a,
 EdgeId Triangulation::first_crossed(VertexId from, VertexId to, Point a, Point b,
                                     Obstacle& obstacle) const {
   const EdgeId first = edge(from);
-  const bool is_rising = a < b;
   EdgeId e = first;
   int previous = 0;  // side of the last edge's end; 0 where there was none
   EdgeId before = EdgeId::none();
@@ -201,7 +200,7 @@ EdgeId Triangulation::first_crossed(VertexId from, VertexId to, Point a, Point b
     }
     if (v != infinite) {
       side = orient(a, b, point(v));
-      if (side == 0 && is_rising == (point(from) < point(v))) {
+      if (side == 0 && is_ahead(point(from), point(v), a, b)) {
         obstacle = {Obstacle::Kind::edge_along, e, {}};
         return EdgeId::none();
       }

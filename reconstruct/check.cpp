@@ -237,4 +237,32 @@ std::vector<Finding> check(const Mesh& mesh) {
 
 std::vector<Finding> check(const Surface& surface) { return check(to_mesh(surface)); }
 
+Contacts contacts(const Mesh& mesh) {
+  const Edges edges(mesh, proper_faces(mesh));
+  std::vector<std::uint32_t> used;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    used.insert(used.end(), {edges[e].front().low, edges[e].front().high});
+  std::ranges::sort(used);
+  used.erase(std::unique(used.begin(), used.end()), used.end());
+  std::ranges::sort(used, {}, [&](std::uint32_t v) { return std::pair(mesh.points[v], v); });
+
+  Contacts result;
+  std::vector<std::uint32_t> place_of(mesh.points.size());  // the first vertex at the same place
+  bool is_counted = false;
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    const bool is_there = i > 0 && mesh.points[used[i]] == mesh.points[used[i - 1]];
+    place_of[used[i]] = is_there ? place_of[used[i - 1]] : used[i];
+    if (is_there && !is_counted && ++result.points == 1) result.first = mesh.points[used[i]];
+    is_counted = is_there;
+  }
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> places;
+  for (std::size_t e = 0; e < edges.size(); ++e)
+    places.emplace_back(
+        std::minmax({place_of[edges[e].front().low], place_of[edges[e].front().high]}));
+  std::ranges::sort(places);
+  for (std::size_t i = 1; i < places.size(); ++i)
+    if (places[i] == places[i - 1] && (i == 1 || places[i - 1] != places[i - 2])) ++result.edges;
+  return result;
+}
+
 }  // namespace loft

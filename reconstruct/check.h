@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -20,7 +21,7 @@ enum class Fault {
   nonmanifold_vertex,  ///< a vertex whose faces form more than one fan
   inconsistent_edge,   ///< two faces that run along their edge in the same direction
   inside_out,  ///< a component that faces inwards where it should face outwards, or the reverse
-  self_intersection,  ///< two faces that meet elsewhere than in shared corners and edges (exact)
+  self_intersection,  ///< two faces that meet elsewhere than in common corners and edges (exact)
 };
 
 /// The fault's name as reports print it, for example `boundary_edge`.
@@ -42,5 +43,18 @@ struct Finding {
 /// Cost: O(n log n) in practice.
 [[nodiscard]] std::vector<Finding> check(const Mesh& mesh);
 [[nodiscard]] std::vector<Finding> check(const Surface& surface);
+
+/// Where a surface touches itself in corners and edges that its parts have each for themselves:
+/// as a solid may that was made from contours with corner contacts. No fault.
+struct Contacts {
+  std::size_t points = 0;  ///< places with more than one vertex, that of edges included
+  std::size_t edges = 0;   ///< places with more than one edge
+  Vec3 first{};            ///< the first of the points by its coordinates, if there is one
+
+  friend bool operator==(const Contacts&, const Contacts&) = default;
+};
+
+/// Cost: O(n log n).
+[[nodiscard]] Contacts contacts(const Mesh& mesh);
 
 }  // namespace loft

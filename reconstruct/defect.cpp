@@ -37,10 +37,14 @@ const char* name(DefectKind kind) {
       return "repeated_point";
     case DefectKind::spike:
       return "spike";
+    case DefectKind::keyhole:
+      return "keyhole";
     case DefectKind::self_crossing:
       return "self_crossing";
     case DefectKind::overlap:
       return "overlap";
+    case DefectKind::covered:
+      return "covered";
     case DefectKind::touching:
       return "touching";
     case DefectKind::empty_slice:

@@ -18,12 +18,14 @@ enum class DefectKind {
   too_few_slices,    ///< fewer than two slices with something in them; fatal
   too_few_points,    ///< a contour of 0, 1 or 2 points, or of fewer than 3 different ones: dropped
   zero_area,         ///< a contour whose points are all in one line: dropped
-  repeated_contour,  ///< the same contour twice in a slice: one copy dropped
+  repeated_contour,  ///< the same contour twice in a slice, or one that goes round twice: one kept
   repeated_point,    ///< the same point twice in a row: one copy dropped
   spike,             ///< an out-and-back piece without area: removed
+  keyhole,           ///< a hole joined to its outline by a channel: cut (--fill keyhole-aware)
   self_crossing,     ///< a contour crosses or overlaps itself: resolved by the fill rule
   overlap,           ///< two contours of a slice cross or overlap: resolved by the fill rule
-  touching,          ///< contours meet in a point or along an edge: kept, separated in the surface
+  covered,           ///< a contour that winding numbers make no hole: without effect
+  touching,          ///< a shared side, or a corner on a side: joined, or the side split there
   empty_slice,       ///< a slice without contours between others: the shape ends and starts again
   merged_slices,     ///< two slices of the same height: merged into one
   unlinked_slices,   ///< no valid surface was found between two slices: both end half way
@@ -40,8 +42,11 @@ struct Defect {
   std::optional<std::uint32_t> contour = {};  ///< index in its slice
   std::optional<std::uint32_t> point = {};    ///< index in its contour
   std::optional<cdt::Point> place = {};       ///< where in the slice
-  double area = 0;                            ///< area that the repair changed, in square units
-  std::string message = {};                   ///< what is wrong and the way out, without the place
+  /// How much of the slice the repair decided, in square units: what both contours of an overlap
+  /// enclose, what a self-crossing one winds around twice or backwards, a covered contour, a
+  /// channel. 0 where only lines were left out.
+  double area = 0;
+  std::string message = {};  ///< what is wrong and the way out, without the place
 };
 
 /// `slice 42 (z = 10.5) contour 3 point 7 near (12.1, 40.7): message`, as far as known.

@@ -91,7 +91,7 @@ Region clean(const Height& height, std::span<const Slice* const> parts, const Op
       if (!options.label || all[c].label == *options.label)
         contours.push_back({all[c].points, height.slices[i], c});
   }
-  Region region = clean(contours, height.z, options.fill, repairs, memory);
+  Region region = clean(contours, height.z, {options.fill, options.keyhole_width}, repairs, memory);
   region.slice = height.slices.front();
   return region;
 }

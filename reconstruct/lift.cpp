@@ -39,8 +39,12 @@ Lift::Lift(Slab& slab)
       contour_count_(lower_count_ + static_cast<std::uint32_t>(slab.upper().points.size())) {
   lift_vertices();
   decide_columns();
-  for (int round = 0; round < most_rounds && insert(find_chords()); ++round) {
+  for (int round = 0; round < most_rounds && !is_complete_; ++round) {
+    const std::vector<Steiner> chords = find_chords();
+    is_complete_ = chords.empty();
+    if (!insert(chords)) break;
   }
+  if (!is_complete_) insert(find_flat());
   insert(find_coarse_ends());
 }
 
@@ -193,11 +197,26 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
                        is_contour ? half_way : heights.height(e, place),
                        {mesh_.from(e), mesh_.to(e), VertexId::none()}});
     }
-    if (has_chord || !is_flat(first)) continue;
-    const VertexId corners[3] = {mesh_.from(first), mesh_.to(first), mesh_.apex(first)};
-    const Point place =
-        middle(mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2]));
-    found.push_back({0, place, heights.height(first, place), {corners[0], corners[1], corners[2]}});
+    if (!has_chord && is_flat(first)) found.push_back(in_middle_of(first, heights));
+  }
+  return found;
+}
+
+/// At the centroid of the triangle left of an edge.
+Lift::Steiner Lift::in_middle_of(EdgeId e, SheetHeights& heights) const {
+  const VertexId corners[3] = {mesh_.from(e), mesh_.to(e), mesh_.apex(e)};
+  const Point place =
+      middle(mesh_.point(corners[0]), mesh_.point(corners[1]), mesh_.point(corners[2]));
+  return {0, place, heights.height(e, place), {corners[0], corners[1], corners[2]}};
+}
+
+/// Where a chord cannot be split, the triangle beside it at least must not stay in the plane.
+std::vector<Lift::Steiner> Lift::find_flat() const {
+  SheetHeights heights(slab_);
+  std::vector<Steiner> found;
+  for (std::uint32_t t = 0; t < mesh_.triangle_bound(); ++t) {
+    const EdgeId e = Triangulation::edge(TriangleId(t));
+    if (slab_.is_sheet(e) && is_flat(e)) found.push_back(in_middle_of(e, heights));
   }
   return found;
 }

@@ -12,6 +12,8 @@
 
 namespace loft {
 
+class SheetHeights;
+
 /// A vertex of a slab's tiles that is not a contour vertex.
 struct InnerVertex {
   Vec3 place;
@@ -23,12 +25,14 @@ struct InnerVertex {
 ///
 /// Nodes, the vertices of the tiles, are numbered: first the points of the lower region, then
 /// those of the upper one, then the inner vertices. After lifting no sheet triangle touches a slice
-/// plane except in contour vertices and contour edges of that slice.
+/// plane except in contour vertices and contour edges of that slice, if is_complete().
 class Lift {
  public:
   /// Lifts; inserts Steiner vertices into the slab's overlay.
   explicit Lift(Slab& slab);
 
+  /// False where a sheet is so thin, a few roundings, that there is no place for a vertex in it.
+  [[nodiscard]] bool is_complete() const { return is_complete_; }
   /// The node at from(corner), seen from the sheet triangle left of it.
   [[nodiscard]] std::uint32_t node(cdt::EdgeId corner) const;
   /// The node of an overlay vertex beside which there is no sheet.
@@ -71,6 +75,8 @@ class Lift {
   void restore_columns();
   void lift_vertices();
   [[nodiscard]] std::vector<Steiner> find_chords() const;
+  [[nodiscard]] std::vector<Steiner> find_flat() const;
+  [[nodiscard]] Steiner in_middle_of(cdt::EdgeId e, SheetHeights& heights) const;
   [[nodiscard]] std::vector<Steiner> find_coarse_ends() const;
   bool insert(std::vector<Steiner> steiners);
   [[nodiscard]] double z_at(cdt::EdgeId corner) const;
@@ -84,6 +90,7 @@ class Lift {
   const cdt::Triangulation& mesh_;
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
+  bool is_complete_ = false;
   std::vector<InnerVertex> inner_;
   std::vector<std::uint32_t> nodes_;    // of each overlay vertex; of a column the lower one
   std::vector<Height> heights_;         // of each overlay vertex

@@ -53,13 +53,43 @@ std::size_t count_components(const Surface& surface) {
   return sets.count();
 }
 
+/// The holes of an open surface: chains of edges with one face.
+std::size_t count_rims(const Mesh& mesh, const Edges& edges) {
+  DisjointSets joined(mesh.points.size());
+  std::vector<std::uint32_t> ends;
+  for (std::size_t e = 0; e < edges.size(); ++e) {
+    if (edges[e].size() != 1) continue;
+    joined.unite(edges[e].front().low, edges[e].front().high);
+    ends.push_back(edges[e].front().low);
+  }
+  for (std::uint32_t& end : ends) end = joined.find(end);
+  std::ranges::sort(ends);
+  return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
+}
+
+std::size_t count_rims(const Surface& surface) {
+  std::vector<bool> is_done(surface.n_halfedges());
+  std::size_t count = 0;
+  for (const auto first : surface.halfedges()) {
+    if (!surface.is_boundary(first) || is_done[static_cast<std::size_t>(first.idx())]) continue;
+    ++count;
+    auto h = static_cast<Surface::HalfedgeHandle>(first);
+    do {
+      is_done[static_cast<std::size_t>(h.idx())] = true;
+      h = surface.next_halfedge_handle(h);
+    } while (h != first);
+  }
+  return count;
+}
+
 }  // namespace
 
-/// Euler: vertices - edges + faces = 2 components - 2 genus.
-int genus(const Measures& m) {
+/// Euler: vertices - edges + faces = 2 components - 2 genus - rims.
+int genus(const Measures& m, std::size_t rims) {
   const auto euler =
       static_cast<std::int64_t>(m.vertices + m.faces) - static_cast<std::int64_t>(m.edges);
-  return static_cast<int>((2 * static_cast<std::int64_t>(m.components) - euler) / 2);
+  return static_cast<int>(
+      (2 * static_cast<std::int64_t>(m.components) - euler - static_cast<std::int64_t>(rims)) / 2);
 }
 
 void FaceSum::add(const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -77,7 +107,7 @@ Measures measure(const Mesh& mesh) {
   result.edges = edges.size();
   result.faces = faces.size();
   result.components = count_components(mesh, faces, edges);
-  result.genus = genus(result);
+  result.genus = genus(result, count_rims(mesh, edges));
   FaceSum sum;
   for (const std::uint32_t face : faces) {
     const auto [a, b, c] = mesh.faces[face];
@@ -94,7 +124,7 @@ Measures measure(const Surface& surface) {
   result.edges = surface.n_edges();
   result.faces = surface.n_faces();
   result.components = count_components(surface);
-  result.genus = genus(result);
+  result.genus = genus(result, count_rims(surface));
   FaceSum sum;
   for (const auto face : surface.faces()) {
     std::array<Vec3, 3> corners;

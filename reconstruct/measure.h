@@ -15,7 +15,8 @@ struct Measures {
   std::size_t edges = 0;
   std::size_t faces = 0;
   std::size_t components = 0;  ///< parts connected through edges
-  int genus = 0;               ///< sum over the components; meaningful for closed manifolds only
+  /// The sum over the components, an open one with its holes closed; meaningful for manifolds only.
+  int genus = 0;
   double area = 0;
   double volume = 0;  ///< signed: positive if faces look outwards
 };
@@ -34,8 +35,9 @@ class FaceSum {
   double volume_ = 0;
 };
 
-/// The genus by Euler's formula, from the counts of everything else.
-[[nodiscard]] int genus(const Measures& measures);
+/// The genus by Euler's formula, from the counts of everything else; `rims` closed chains of edges
+/// have one face only.
+[[nodiscard]] int genus(const Measures& measures, std::size_t rims);
 
 /// Cost: O(n log n).
 [[nodiscard]] Measures measure(const Mesh& mesh);

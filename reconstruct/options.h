@@ -2,7 +2,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
+
+#include "cdt/point.h"
 
 namespace loft {
 
@@ -10,6 +13,20 @@ namespace loft {
 enum class Fill {
   even_odd,  ///< a point enclosed by an odd number of contours: nested contours are holes
   nonzero,   ///< a point that contours wind around: overlapping ones make their union
+  /// As even_odd, once holes have been taken out of the contours that lead through a channel to
+  /// them and back (the keyhole technique of DICOM): an even-odd slit in their place is closed.
+  keyhole_aware,
+};
+
+/// A fill rule and what it needs to know.
+struct Filling {
+  Fill rule = Fill::even_odd;
+  /// Keyhole-aware: how far the sides of a channel may be from each other, in the units of the
+  /// input. Not set: a thousandth of the diagonal of the contour's box, half a millimetre for the
+  /// outline of a body.
+  std::optional<double> keyhole_width = {};
+
+  [[nodiscard]] double channel_width(std::span<const cdt::Point> contour) const;
 };
 
 /// What closes the first and the last slice.
@@ -21,6 +38,7 @@ enum class Cap {
 
 struct Options {
   Fill fill = Fill::even_odd;
+  std::optional<double> keyhole_width = {};  ///< see Filling
   Cap cap = Cap::flat;
   /// Bends the surface between the slices as their neighbours suggest (reconstruct/smooth.h);
   /// otherwise it is straight from slice to slice.

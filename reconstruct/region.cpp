@@ -5,11 +5,14 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
+#include "reconstruct/keyholes.h"
+#include "reconstruct/meetings.h"
 
 namespace loft {
 
@@ -20,20 +23,63 @@ using cdt::Point;
 using cdt::Triangulation;
 using cdt::VertexId;
 
-/// A contour without points given twice in a row, in an order that does not depend on where it
-/// starts and which way round it goes.
-std::vector<Point> normal_form(std::span<const Point> points) {
+/// What a contour draws, whatever way it is written.
+struct NormalForm {
+  /// Its places in an order that does not depend on where it starts and which way round it goes,
+  /// once if it goes round several times, none given twice in a row.
+  std::vector<Point> places;
+  std::vector<std::uint32_t> numbers;  ///< of the points that say it once
+  std::size_t laps = 1;                ///< how often it goes round the same points
+  bool turns_left = true;              ///< whether it encloses more on its left
+};
+
+/// How long the part is that a ring repeats all round; its length if there is none.
+std::size_t period(std::span<const Point> ring) {
+  std::vector<std::size_t> border(ring.size() + 1);  // Knuth, Morris, Pratt 1977
+  for (std::size_t i = 1, k = 0; i < ring.size(); ++i) {
+    while (k > 0 && ring[i] != ring[k]) k = border[k];
+    if (ring[i] == ring[k]) ++k;
+    border[i + 1] = k;
+  }
+  const std::size_t part = ring.size() - border[ring.size()];
+  return part != 0 && ring.size() % part == 0 ? part : ring.size();
+}
+
+double twice_area(std::span<const Point> ring) {
+  double twice = 0;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const Point a = ring[i];
+    const Point b = ring[(i + 1) % ring.size()];
+    twice += (a.x - ring[0].x) * (b.y - ring[0].y) - (a.y - ring[0].y) * (b.x - ring[0].x);
+  }
+  return twice;
+}
+
+NormalForm normal_form(std::span<const Point> points) {
+  NormalForm form;
   std::vector<Point> ring;
-  for (const Point p : points)
-    if (ring.empty() || ring.back() != p) ring.push_back(p);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (!ring.empty() && ring.back() == points[i]) continue;
+    ring.push_back(points[i]);
+    form.numbers.push_back(i);
+  }
   while (ring.size() > 1 && ring.back() == ring.front()) ring.pop_back();
-  std::vector<Point> best;
-  for (int direction = 0; direction < 2; ++direction) {
+  const std::size_t once = period(ring);
+  form.laps = once == 0 ? 1 : ring.size() / once;
+  ring.resize(once);
+  form.numbers.resize(once);
+  bool is_forward = true;
+  for (const bool forward : {true, false}) {
     std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
-    if (best.empty() || ring < best) best = ring;
+    if (form.places.empty() || ring < form.places) {
+      form.places = ring;
+      is_forward = forward;
+    }
     std::ranges::reverse(ring);
   }
-  return best;
+  const double twice = twice_area(form.places);
+  form.turns_left = twice == 0 ? is_forward : (twice > 0) == is_forward;
+  return form;
 }
 
 bool are_in_line(std::span<const Point> points) {
@@ -42,16 +88,34 @@ bool are_in_line(std::span<const Point> points) {
                              [&](Point p) { return cdt::orient(ends.min, ends.max, p) == 0; });
 }
 
-/// A vertex and an edge that are nearer than that, relative to the coordinates, touch: 16
-/// roundings.
-constexpr double tightness = 0x1p-49;
+/// Outlines of a slice that are nearer to each other than that touch: 16 roundings of the
+/// coordinates, and 1e-12 of the slice's width. Between nearer ones, crossings with the contours of
+/// the next slice could not be told apart.
+double least_distance(std::span<const ContourSource> contours) {
+  cdt::Box box;
+  double farthest = 0;
+  for (const ContourSource& contour : contours) {
+    for (const Point p : contour.points) {
+      box.add(p);
+      farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
+    }
+  }
+  const double width =
+      box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  return std::max(0x1p-49 * farthest, 0x1p-40 * width);
+}
 
 /// The cleaning of one slice, stage by stage.
 class Cleaning {
  public:
-  Cleaning(std::span<const ContourSource> contours, double z, Fill fill,
-           std::vector<Defect>& repairs, Triangulation& memory)
-      : contours_(contours), z_(z), fill_(fill), repairs_(repairs), mesh_(memory) {
+  Cleaning(std::span<const ContourSource> contours, double z, const Filling& filling,
+           double least_distance, std::vector<Defect>& repairs, Triangulation& memory)
+      : contours_(contours),
+        z_(z),
+        filling_(filling),
+        least_distance_(least_distance),
+        repairs_(repairs),
+        mesh_(memory) {
     mesh_.clear();
   }
 
@@ -59,39 +123,110 @@ class Cleaning {
     choose_contours();
     insert();
     find_inside();
-    report_crossings();
-    report_overlaps();
+    report_meetings();
     return follow_loops();
   }
 
-  /// Whether the region's vertices are those of the contours, and none is upon an edge.
+  /// For what is a region already: copies cancel each other, there is nothing to report.
+  Region run_again() {
+    for (std::uint32_t i = 0; i < contours_.size(); ++i)
+      if (!contours_[i].points.empty()) rings_.push_back({i, {}, true});
+    insert();
+    find_inside();
+    return follow_loops();
+  }
+
+  /// Whether the region's vertices are those of the contours, and nothing is too near.
   [[nodiscard]] bool is_settled() const {
-    return is_settled_ && std::ranges::find(origins_.begin() + 1, origins_.end(),
-                                            VertexKind::cleaning, &Origin::kind) == origins_.end();
+    return is_settled_ && !has_near_vertices() &&
+           std::ranges::find(origins_.begin() + 1, origins_.end(), VertexKind::cleaning,
+                             &Origin::kind) == origins_.end();
   }
 
  private:
+  /// A closed line that is inserted: a contour, or what is left of it.
+  struct Ring {
+    std::uint32_t contour;               // index in contours_
+    std::vector<std::uint32_t> numbers;  // of its points; none where it has all
+    bool turns_left;
+  };
+
   Defect& report(DefectKind kind, std::uint32_t contour, std::string message) {
     const ContourSource& source = contours_[contour];
     repairs_.push_back({kind, z_, source.slice, source.contour, {}, {}, 0, std::move(message)});
     return repairs_.back();
   }
+  /// What messages call a contour.
+  [[nodiscard]] std::string called(std::uint32_t contour) const {
+    return "contour " + std::to_string(contours_[contour].contour);
+  }
 
   void choose_contours() {
-    std::map<std::vector<Point>, std::uint32_t> seen;
+    std::map<std::vector<Point>, std::size_t> seen;  // where the first one is in rings_
     for (std::uint32_t i = 0; i < contours_.size(); ++i) {
-      std::vector<Point> ring = normal_form(contours_[i].points);
-      if (ring.empty() || are_in_line(ring)) {
-        report_degenerate(i, ring);
-      } else if (const auto [other, is_new] = seen.try_emplace(std::move(ring), i); !is_new) {
+      NormalForm form = normal_form(contours_[i].points);
+      if (form.places.empty() || are_in_line(form.places)) {
+        report_degenerate(i, form.places);
+        continue;
+      }
+      if (form.laps > 1)
         report(DefectKind::repeated_contour, i,
-               "is the same as contour " + std::to_string(contours_[other->second].contour) +
-                   "; one copy dropped")
-            .place = other->first.front();
+               "goes round the same points " + std::to_string(form.laps) + " times; kept once")
+            .place = form.places.front();
+      Ring ring{i, {}, form.turns_left};
+      if (form.laps > 1) ring.numbers = std::move(form.numbers);
+      const auto [other, is_new] = seen.try_emplace(std::move(form.places), rings_.size());
+      if (is_new) {
+        rings_.push_back(std::move(ring));
       } else {
-        chosen_.push_back(i);
+        drop_copy(rings_[other->second], std::move(ring));
       }
     }
+    if (filling_.rule == Fill::keyhole_aware) cut_channels();
+  }
+
+  /// Of two that go round opposite ways the one that turns left stays: with it, whatever else is
+  /// there, a point that only these two wind around is inside, and the order does not matter.
+  void drop_copy(Ring& kept, Ring dropped) {
+    const bool is_turned = kept.turns_left != dropped.turns_left;
+    if (is_turned && dropped.turns_left) std::swap(kept, dropped);
+    report(DefectKind::repeated_contour, dropped.contour,
+           "is the same as " + called(kept.contour) + (is_turned ? ", the other way round" : "") +
+               "; one copy dropped")
+        .place = contours_[dropped.contour].points.front();
+  }
+
+  void cut_channels() {
+    std::vector<Ring> all;
+    for (Ring& ring : rings_) {
+      const std::vector<Point> points = points_of(ring);
+      KeyholeCut cut = cut_keyholes(points, filling_.channel_width(points));
+      if (cut.channels.empty()) {
+        all.push_back(std::move(ring));
+        continue;
+      }
+      for (auto& part : cut.rings) {
+        if (!ring.numbers.empty())
+          for (std::uint32_t& number : part) number = ring.numbers[number];
+        all.push_back({ring.contour, std::move(part), ring.turns_left});
+      }
+      for (const Channel& channel : cut.channels) {
+        Defect& defect =
+            report(DefectKind::keyhole, ring.contour,
+                   "leads through a channel to a hole and back; cut there, the hole taken out");
+        defect.place = channel.place;
+        defect.area = channel.area;
+      }
+    }
+    rings_ = std::move(all);
+  }
+
+  [[nodiscard]] std::vector<Point> points_of(const Ring& ring) const {
+    const auto points = contours_[ring.contour].points;
+    if (ring.numbers.empty()) return {points.begin(), points.end()};
+    std::vector<Point> result;
+    for (const std::uint32_t number : ring.numbers) result.push_back(points[number]);
+    return result;
   }
 
   void report_degenerate(std::uint32_t contour, const std::vector<Point>& ring) {
@@ -106,9 +241,15 @@ class Cleaning {
 
   void insert() {
     std::size_t count = 0;
-    for (const std::uint32_t i : chosen_) count += contours_[i].points.size();
+    for (const Ring& ring : rings_) count += contours_[ring.contour].points.size();
     mesh_.reserve(count);
-    for (const std::uint32_t i : chosen_) mesh_.insert(contours_[i].points, cdt::closed);
+    for (const Ring& ring : rings_) {
+      if (ring.numbers.empty()) {
+        mesh_.insert(contours_[ring.contour].points, cdt::closed);
+      } else {
+        mesh_.insert(points_of(ring), cdt::closed);
+      }
+    }
     note_sources();
   }
 
@@ -116,25 +257,27 @@ class Cleaning {
   void note_sources() {
     origins_.assign(mesh_.vertex_bound(),
                     Origin{VertexKind::cleaning, Origin::none, Origin::none, Origin::none});
-    for (std::uint32_t c = 0; c < chosen_.size(); ++c) {
-      const ContourSource& source = contours_[chosen_[c]];
-      const auto segments = mesh_.segments(cdt::ConstraintId(c));
+    for (std::uint32_t r = 0; r < rings_.size(); ++r) {
+      const Ring& ring = rings_[r];
+      const ContourSource& source = contours_[ring.contour];
+      const auto segments = mesh_.segments(cdt::ConstraintId(r));
       std::uint32_t repeated = 0;
       for (std::uint32_t i = 0; i < segments.size(); ++i) {
         Origin& origin = origins_[segments[i].from.index()];
         const bool is_closing = i + 1 == segments.size();
         if (segments[i].from == segments[i].to && !is_closing) ++repeated;
         if (origin.contour != Origin::none) continue;
-        origin = {VertexKind::contour, source.slice, source.contour, i};
+        origin = {VertexKind::contour, source.slice, source.contour,
+                  ring.numbers.empty() ? i : ring.numbers[i]};
       }
       if (repeated != 0)
-        report(DefectKind::repeated_point, chosen_[c],
+        report(DefectKind::repeated_point, ring.contour,
                std::to_string(repeated) + " points given twice in a row; kept once");
     }
   }
 
   void find_inside() {
-    if (fill_ == Fill::even_odd) {
+    if (filling_.rule != Fill::nonzero) {
       is_inside_ = cdt::odd_parity(mesh_);
     } else {
       const auto windings = cdt::winding_numbers(mesh_);
@@ -151,88 +294,58 @@ class Cleaning {
     return is_inside(e) && !is_inside(mesh_.twin(e));
   }
 
+  [[nodiscard]] std::uint32_t contour_of(cdt::ConstraintId ring) const {
+    return rings_[ring.index()].contour;
+  }
   [[nodiscard]] std::uint32_t contour_of(cdt::Passage passage) const {
-    return chosen_[mesh_.segment(passage.segment()).constraint.index()];
+    return contour_of(mesh_.segment(passage.segment()).constraint);
   }
 
-  /// One report for each contour, or pair of contours, that cross: the first place and how many.
-  void report_crossings() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<VertexId, std::size_t>> found;
-    for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i) {
-      if (!mesh_.is_vertex(VertexId(i)) || origins_[i].kind == VertexKind::contour) continue;
-      std::set<std::uint32_t> around;
-      const EdgeId first = mesh_.edge(VertexId(i));
-      EdgeId e = first;
-      do {
-        for (const cdt::Passage passage : mesh_.passages(e)) around.insert(contour_of(passage));
-        e = mesh_.rotated(e);
-      } while (e != first);
-      ++found.try_emplace({*around.begin(), *around.rbegin()}, VertexId(i), 0).first->second.second;
-    }
-    for (const auto& [pair, crossings] : found) {
-      const auto& [place, count] = crossings;
-      const std::string times = count == 1 ? "" : ", " + std::to_string(count) + " times";
-      const std::string rule = fill_ == Fill::even_odd
-                                   ? "; parts enclosed twice are outside (--fill evenodd); "
-                                     "--fill nonzero keeps them"
-                                   : "; parts that it winds around are inside (--fill nonzero)";
-      Defect& defect =
-          pair.first == pair.second
-              ? report(DefectKind::self_crossing, pair.first, "crosses itself" + times + rule)
-              : report(DefectKind::overlap, pair.second,
-                       "crosses contour " + std::to_string(contours_[pair.first].contour) + times +
-                           rule);
-      defect.place = mesh_.point(place);
-      defect.area = changed_area(pair.first, pair.second);
+  /// One report for each contour, or pair of contours, and way in which they meet.
+  void report_meetings() {
+    for (const Meeting& meeting : find_meetings(mesh_, is_inside_)) {
+      const std::uint32_t one = contour_of(meeting.one);
+      const std::uint32_t other = contour_of(meeting.other);
+      Defect& defect = report(kind_of(meeting, one == other), other, message(meeting, one, other));
+      defect.place = meeting.place;
+      defect.area = meeting.area;
     }
   }
 
-  /// The area that the fill rule decided otherwise than the contours, each taken for itself and
-  /// as one simple outline, would have it.
-  [[nodiscard]] double changed_area(std::uint32_t one, std::uint32_t other) const {
-    const auto windings = cdt::winding_numbers(mesh_, [&](cdt::ConstraintId c) {
-      return chosen_[c.index()] == one || chosen_[c.index()] == other;
-    });
-    double positive = 0;
-    double negative = 0;
-    double multiple = 0;
-    for (std::uint32_t t = 0; t < windings.size(); ++t) {
-      if (windings[t] == 0) continue;
-      const double area = triangle_area(cdt::TriangleId(t));
-      (windings[t] > 0 ? positive : negative) += area;
-      if (std::abs(windings[t]) > 1) multiple += area;
+  [[nodiscard]] static DefectKind kind_of(const Meeting& meeting, bool is_one_contour) {
+    switch (meeting.kind) {
+      case Meeting::Kind::crossing:
+        return is_one_contour ? DefectKind::self_crossing : DefectKind::overlap;
+      case Meeting::Kind::doubled:
+        return DefectKind::spike;
+      case Meeting::Kind::covered:
+        return DefectKind::covered;
+      default:
+        return DefectKind::touching;
     }
-    return multiple + (one == other ? std::min(positive, negative) : 0);
   }
 
-  [[nodiscard]] double triangle_area(cdt::TriangleId t) const {
-    const EdgeId e = Triangulation::edge(t);
-    const Point a = mesh_.point(mesh_.from(e));
-    const Point b = mesh_.point(mesh_.to(e));
-    const Point c = mesh_.point(mesh_.apex(e));
-    return ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
-  }
-
-  /// Edges along which contours run more than once: spikes, and outlines that share a side.
-  void report_overlaps() {
-    std::map<std::pair<std::uint32_t, std::uint32_t>, Point> found;
-    for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
-      const EdgeId e(i);
-      const auto passages = mesh_.passages(e);
-      if (passages.size() < 2 || mesh_.twin(e) < e) continue;
-      const std::pair<std::uint32_t, std::uint32_t> pair =
-          std::minmax({contour_of(passages.front()), contour_of(passages.back())});
-      found.try_emplace(pair, mesh_.point(mesh_.from(e)));
+  [[nodiscard]] std::string message(const Meeting& meeting, std::uint32_t one,
+                                    std::uint32_t other) const {
+    const std::string what = one == other ? "itself" : called(one);
+    switch (meeting.kind) {
+      case Meeting::Kind::crossing:
+        return "crosses " + what +
+               (meeting.places == 1 ? "" : ", " + std::to_string(meeting.places) + " times") +
+               (filling_.rule == Fill::nonzero
+                    ? "; parts that are wound around are inside (--fill nonzero)"
+                    : "; parts enclosed twice are outside (--fill evenodd); --fill nonzero keeps "
+                      "them");
+      case Meeting::Kind::doubled:
+        return "runs out and back along the same line, a spike or the channel to a hole; left out";
+      case Meeting::Kind::shared_side:
+        return "shares part of its outline with " + what + "; joined there";
+      case Meeting::Kind::upon_side:
+        return "has a corner on a side of " + what + ", or the reverse; the side is split there";
+      case Meeting::Kind::covered:
+        break;
     }
-    for (const auto& [pair, place] : found) {
-      Defect& defect = pair.first == pair.second
-                           ? report(DefectKind::spike, pair.first,
-                                    "runs out and back along the same line; the spike is removed")
-                           : report(DefectKind::touching, pair.second,
-                                    "shares part of its outline with contour " +
-                                        std::to_string(contours_[pair.first].contour));
-      defect.place = place;
-    }
+    return "is inside of others that make it no hole (--fill nonzero); without effect";
   }
 
   /// The next boundary edge with the same inside on its left: around the end of e, through the
@@ -288,6 +401,7 @@ class Cleaning {
       const EdgeId after = next_boundary(e);
       if (const VertexId v = vertex_upon(e); !v.is_none()) {
         region.loop_vertices.push_back(add_point(v, region));
+        report_led_through(e, v);
         is_settled_ = false;
       }
       if (!is_left_over(e, after))
@@ -301,12 +415,25 @@ class Cleaning {
     region.loop_starts.push_back(static_cast<std::uint32_t>(region.loop_vertices.size()));
   }
 
-  /// A vertex that is beside an edge by a few roundings only: the outline is led through it, or
-  /// the next rounding, where contours of two slices cross, might put it on the other side.
+  /// The nearest of several vertices is a neighbour in the triangulation.
+  [[nodiscard]] bool has_near_vertices() const {
+    for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
+      const EdgeId e(i);
+      if (!mesh_.is_triangle(Triangulation::triangle(e))) continue;
+      if (mesh_.from(e) == Triangulation::infinite || mesh_.to(e) == Triangulation::infinite)
+        continue;
+      const Point a = mesh_.point(mesh_.from(e));
+      const Point b = mesh_.point(mesh_.to(e));
+      if (std::abs(a.x - b.x) < least_distance_ && std::abs(a.y - b.y) < least_distance_)
+        return true;
+    }
+    return false;
+  }
+
+  /// A vertex that is too near to an edge: the outline is led through it.
   [[nodiscard]] VertexId vertex_upon(EdgeId e) const {
     const Point a = mesh_.point(mesh_.from(e));
     const Point b = mesh_.point(mesh_.to(e));
-    const double size = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
     for (const EdgeId side : {e, mesh_.twin(e)}) {
       const VertexId v = mesh_.apex(side);
       if (v == Triangulation::infinite) continue;
@@ -314,10 +441,16 @@ class Cleaning {
       const double along = (p.x - a.x) * (b.x - a.x) + (p.y - a.y) * (b.y - a.y);
       const double length = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y);
       const double area = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
-      if (along > 0 && along < length && std::abs(area) < tightness * size * std::sqrt(length))
+      if (along > 0 && along < length && std::abs(area) < least_distance_ * std::sqrt(length))
         return v;
     }
     return VertexId::none();
+  }
+
+  void report_led_through(EdgeId e, VertexId v) {
+    report(DefectKind::touching, contour_of(mesh_.passages(e).front()),
+           "a side comes nearer to a corner than can be told apart; led through it")
+        .place = mesh_.point(v);
   }
 
   std::uint32_t add_point(VertexId v, Region& region) {
@@ -335,9 +468,10 @@ class Cleaning {
   bool is_settled_ = true;  // no outline was led through a vertex beside it
   std::span<const ContourSource> contours_;
   double z_;
-  Fill fill_;
+  Filling filling_;
+  double least_distance_;
   std::vector<Defect>& repairs_;
-  std::vector<std::uint32_t> chosen_;  // contour of each constraint
+  std::vector<Ring> rings_;  // by constraint
   Triangulation& mesh_;
   std::vector<Origin> origins_;       // of each vertex
   std::vector<bool> is_inside_;       // of each triangle
@@ -352,9 +486,10 @@ namespace {
 /// than a few were never seen.
 constexpr int most_rounds = 16;
 
-/// For each point the one to put in its place: a crossing within a few roundings of another point
-/// is that point. Points of contours stay.
-std::vector<std::uint32_t> weld(const Region& region) {
+/// For each point the one to put in its place: of two that are too near to each other one goes, a
+/// crossing rather than a point of a contour.
+std::vector<std::uint32_t> weld(const Region& region, double least_distance,
+                                std::vector<Defect>& repairs) {
   const auto& points = region.points;
   std::vector<std::uint32_t> order(points.size());
   std::iota(order.begin(), order.end(), 0);
@@ -365,13 +500,20 @@ std::vector<std::uint32_t> weld(const Region& region) {
   };
   for (std::size_t i = 0; i < order.size(); ++i) {
     const Point p = points[order[i]];
-    const double near = 2 * tightness * std::max(std::abs(p.x), std::abs(p.y));
-    for (std::size_t j = i + 1; j < order.size() && points[order[j]].x - p.x <= near; ++j) {
-      if (std::abs(points[order[j]].y - p.y) > near) continue;
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const Point q = points[order[j]];
+      if (q.x - p.x > 2 * least_distance) break;
+      if (std::abs(q.y - p.y) > 2 * least_distance) continue;
       if (is_crossing(order[j])) {
         target[order[j]] = target[order[i]];
       } else if (is_crossing(order[i])) {
         target[order[i]] = order[j];
+      } else if (target[order[j]] == order[j]) {
+        const Origin& origin = region.origins[order[j]];
+        repairs.push_back({DefectKind::repeated_point, region.z, origin.slice, origin.contour,
+                           origin.point, q, 0,
+                           "is nearer to another point than can be told apart; one kept"});
+        target[order[j]] = target[order[i]];
       }
     }
   }
@@ -380,17 +522,19 @@ std::vector<std::uint32_t> weld(const Region& region) {
 }
 
 /// The loops of a region cleaned once more, as long as that changes anything.
-Region settle(Region region, Triangulation& memory) {
+Region settle(Region region, double least_distance, std::vector<Defect>& repairs,
+              Triangulation& memory) {
   for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<std::uint32_t> target = weld(region);
+    const std::vector<std::uint32_t> target = weld(region, least_distance, repairs);
     std::vector<std::vector<Point>> loops(region.loop_count());
     std::vector<ContourSource> sources;
     for (std::uint32_t i = 0; i < loops.size(); ++i) {
       for (const std::uint32_t v : region.loop(i)) loops[i].push_back(region.points[target[v]]);
       sources.push_back({loops[i], region.slice, i});
     }
-    std::vector<Defect> nothing_new;
-    Region again = Cleaning(sources, region.z, Fill::even_odd, nothing_new, memory).run();
+    std::vector<Defect> known;
+    Region again =
+        Cleaning(sources, region.z, {}, least_distance, known, memory).run_again();
     for (Origin& origin : again.origins)
       if (origin.kind == VertexKind::contour)
         origin = region.origins[target[region.loop(origin.contour)[origin.point]]];
@@ -404,17 +548,25 @@ Region settle(Region region, Triangulation& memory) {
 
 }  // namespace
 
-Region clean(std::span<const ContourSource> contours, double z, Fill fill,
-             std::vector<Defect>& repairs, Triangulation& memory) {
-  Cleaning cleaning(contours, z, fill, repairs, memory);
-  Region region = cleaning.run();
-  return cleaning.is_settled() ? region : settle(std::move(region), memory);
+double Filling::channel_width(std::span<const cdt::Point> contour) const {
+  if (keyhole_width) return *keyhole_width;
+  cdt::Box box;
+  for (const Point p : contour) box.add(p);
+  return box.is_empty() ? 0 : 1e-3 * std::hypot(box.high.x - box.low.x, box.high.y - box.low.y);
 }
 
-Region clean(std::span<const ContourSource> contours, double z, Fill fill,
+Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,
+             std::vector<Defect>& repairs, Triangulation& memory) {
+  const double least = least_distance(contours);
+  Cleaning cleaning(contours, z, filling, least, repairs, memory);
+  Region region = cleaning.run();
+  return cleaning.is_settled() ? region : settle(std::move(region), least, repairs, memory);
+}
+
+Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,
              std::vector<Defect>& repairs) {
   Triangulation memory;
-  return clean(contours, z, fill, repairs, memory);
+  return clean(contours, z, filling, repairs, memory);
 }
 
 void insert_loops(const Region& region, cdt::Triangulation& mesh, Point shift) {

@@ -40,14 +40,18 @@ struct ContourSource {
 };
 
 /// Cleans a slice (design, section 3, step 0): contours with no area and copies of others are
-/// dropped; the rest go into a CDT, which is flooded by the fill rule; the edges between inside
-/// and outside make the loops. A slice without faults keeps its vertices, one for one.
-/// What was found is appended to `repairs`. Precondition: finite coordinates.
-[[nodiscard]] Region clean(std::span<const ContourSource> contours, double z, Fill fill,
-                           std::vector<Defect>& repairs);
+/// dropped, keyholes cut; the rest go into a CDT, which is flooded by the fill rule; the edges
+/// between inside and outside make the loops. What was found is appended to `repairs`.
+/// Laws: a slice of which nothing is reported keeps its vertices and edges, one for one. The
+/// region does not depend on the order of the contours and of their points; with even-odd filling
+/// neither on their direction. Precondition: finite coordinates.
+/// Cost: that of the CDT; where contours meet, with how many enclose the same place.
+[[nodiscard]] Region clean(std::span<const ContourSource> contours, double z,
+                           const Filling& filling, std::vector<Defect>& repairs);
 /// The same with memory for the CDT that can be used again from slice to slice.
-[[nodiscard]] Region clean(std::span<const ContourSource> contours, double z, Fill fill,
-                           std::vector<Defect>& repairs, cdt::Triangulation& memory);
+[[nodiscard]] Region clean(std::span<const ContourSource> contours, double z,
+                           const Filling& filling, std::vector<Defect>& repairs,
+                           cdt::Triangulation& memory);
 
 /// Inserts the loops of a region as constraints, in order: segment i starts at
 /// `loop_vertices[i]`, counted from the first segment that is new. All points moved by `shift`.

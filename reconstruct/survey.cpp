@@ -1,7 +1,22 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/survey.h"
 
+#include <map>
+
 namespace loft {
+
+namespace {
+
+/// The closed chains that sides make, by their ends.
+std::size_t count_chains(const std::vector<std::array<std::uint32_t, 2>>& sides) {
+  std::map<std::uint32_t, std::uint32_t> first_at;  // the side that begins at a vertex
+  for (std::uint32_t i = 0; i < sides.size(); ++i) first_at[sides[i][0]] = i;
+  DisjointSets chains(sides.size());
+  for (std::uint32_t i = 0; i < sides.size(); ++i) chains.unite(i, first_at.at(sides[i][1]));
+  return chains.count();
+}
+
+}  // namespace
 
 void Survey::add_vertices(std::span<const SurfaceVertex> vertices) {
   measures_.vertices += vertices.size();
@@ -17,12 +32,16 @@ void Survey::add_face(const std::array<Vec3, 3>& corners) {
 void Survey::connect(const Sewing& sewing, std::uint32_t layer) {
   const auto face_count = sewing.layer(layer).tiles.tiles.size();
   DisjointSets faces(face_count);
+  std::vector<std::array<std::uint32_t, 2>> rim;
   for (std::uint32_t h = 0; h < 3 * face_count; ++h) {
     const HalfEdge mate = sewing.mate({layer, h});
-    rim_count_ += mate.is_none() ? 1U : 0U;
+    if (mate.is_none())
+      rim.push_back({sewing.vertex({layer, h}), sewing.vertex(Sewing::next(HalfEdge{layer, h}))});
     if (mate.layer == layer) faces.unite(h / 3, mate.face());
   }
   side_count_ += 3 * face_count;
+  rim_side_count_ += rim.size();
+  rim_count_ += count_chains(rim);  // a slice's, so that each is in one layer
 
   std::vector<std::uint32_t> part(face_count);
   for (std::uint32_t f = 0; f < face_count; ++f)
@@ -35,9 +54,9 @@ void Survey::connect(const Sewing& sewing, std::uint32_t layer) {
 }
 
 Measures Survey::measures() {
-  measures_.edges = (side_count_ + rim_count_) / 2;
+  measures_.edges = (side_count_ + rim_side_count_) / 2;
   measures_.components = parts_.count();
-  measures_.genus = genus(measures_);
+  measures_.genus = genus(measures_, rim_count_);
   measures_.area = sum_.area();
   measures_.volume = sum_.volume();
   return measures_;

@@ -31,7 +31,8 @@ class Survey {
   FaceSum sum_;
   std::array<std::size_t, 4> kinds_{};
   std::size_t side_count_ = 0;
-  std::size_t rim_count_ = 0;        // sides where the surface ends
+  std::size_t rim_side_count_ = 0;   // where the surface ends
+  std::size_t rim_count_ = 0;        // closed chains of such sides
   std::vector<std::uint32_t> part_;  // of each face of the last layer, in parts_
   DisjointSets parts_{0};            // connected parts of layers
 };

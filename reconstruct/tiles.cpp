@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
@@ -209,6 +211,58 @@ bool meet(const Region& lower, const Region& upper, const TileSet& tiles) {
   return is_found;
 }
 
+/// Whether the tiles and the two regions together have no rim, and nothing but the contours is in
+/// the slice planes.
+bool fit_together(const Region& lower, const Region& upper, const TileSet& tiles) {
+  const auto lower_count = static_cast<std::uint32_t>(lower.points.size());
+  const auto contour_count = lower_count + static_cast<std::uint32_t>(upper.points.size());
+  struct Edge {
+    std::uint32_t from;
+    std::uint32_t to;
+    int turns;  // 1 if from is less than to, else -1
+    bool is_contour;
+  };
+  std::vector<Edge> edges;
+  const auto add = [&](std::uint32_t from, std::uint32_t to, bool is_contour) {
+    const auto [low, high] = std::minmax(from, to);
+    edges.push_back({low, high, from < to ? 1 : -1, is_contour});
+  };
+  for (const Tile& tile : tiles.tiles) {
+    const auto [least, most] = std::ranges::minmax(tile.nodes);
+    if (most < lower_count || (least >= lower_count && most < contour_count)) return false;
+    for (unsigned i = 0; i < 3; ++i) add(tile.nodes[i], tile.nodes[(i + 1) % 3], false);
+  }
+  for (const Region* region : {&lower, &upper}) {
+    const std::uint32_t first = region == &lower ? 0 : lower_count;
+    for (std::size_t i = 0; i < region->loop_count(); ++i) {
+      const auto loop = region->loop(i);
+      for (std::size_t k = 0; k < loop.size(); ++k) {
+        const std::uint32_t from = first + loop[k];
+        const std::uint32_t to = first + loop[(k + 1) % loop.size()];
+        if (region == &lower) {
+          add(to, from, true);
+        } else {
+          add(from, to, true);
+        }
+      }
+    }
+  }
+  std::ranges::sort(edges, {}, [](const Edge& e) { return std::pair(e.from, e.to); });
+  for (std::size_t i = 0; i < edges.size();) {
+    const Edge& first = edges[i];
+    int turns = 0;
+    bool is_contour = false;
+    for (; i < edges.size() && edges[i].from == first.from && edges[i].to == first.to; ++i) {
+      turns += edges[i].turns;
+      is_contour = is_contour || edges[i].is_contour;
+    }
+    const bool is_in_slice =
+        first.to < lower_count || (first.from >= lower_count && first.to < contour_count);
+    if (turns != 0 || (is_in_slice && !is_contour)) return false;
+  }
+  return true;
+}
+
 /// Both regions end half way: nothing of one slice is near anything of the other.
 TileSet tile_apart(const Region& lower, const Region& upper, TileWorkspace& workspace) {
   Region nothing;
@@ -234,29 +288,66 @@ TileSet tile_apart(const Region& lower, const Region& upper, TileWorkspace& work
 /// That often a slab is sheared anew before its slices are left apart.
 constexpr int most_shears = 12;
 
+/// What is asked of an overlay.
+enum class Overlay { exact, rounded };
+
+/// Tiles before their crossings are collapsed.
+struct Draft {
+  TileSet tiles;
+  bool is_doubtful;  // whether they have to be tested
+};
+
+/// None if the overlay does not do.
+std::optional<Draft> draft(Slab& slab, double tight, Overlay overlay, TileWorkspace& workspace) {
+  const bool is_exact = slab.is_exact();
+  if (overlay == Overlay::exact && !is_exact) return {};
+  const Lift lift(slab);
+  if (!lift.is_complete()) return {};
+  Tiling tiling(slab, lift, workspace.wall);
+  TileSet tiles = tiling.run();
+  if (!is_exact && !fit_together(slab.lower(), slab.upper(), tiles)) return {};
+  return Draft{std::move(tiles), !is_exact || tiling.is_forced() || slab.is_tight(tight)};
+}
+
+/// The tiles of a slab that is sheared on the way. None if they are not valid.
+std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, Point shear,
+                                    double tight, Overlay overlay, TileWorkspace& workspace) {
+  Slab slab(lower, upper, shear, std::move(workspace.overlay));
+  auto drafted = draft(slab, tight, overlay, workspace);
+  workspace.overlay = slab.release();
+  if (!drafted) return {};
+  collapse_crossings(lower, upper, drafted->tiles);
+  if ((drafted->is_doubtful || shear != Point{}) && meet(lower, upper, drafted->tiles)) return {};
+  return std::move(drafted->tiles);
+}
+
+/// One of the slices is empty: nothing could coincide.
+TileSet tile_end(const Region& lower, const Region& upper, TileWorkspace& workspace) {
+  Slab slab(lower, upper, {}, std::move(workspace.overlay));
+  const Lift lift(slab);
+  TileSet tiles = Tiling(slab, lift, workspace.wall).run();
+  workspace.overlay = slab.release();
+  return tiles;
+}
+
 }  // namespace
 
 /// Where contours of both slices meet within rounding of each other, as three lines through one
 /// point may, the overlay can't be exact. Then the slab is sheared a little before it is tiled, in
 /// no special direction, and back again: a shear keeps tiles valid, and nothing meets by chance.
+/// Where a slice has slivers that are little wider than rounding, no overlay is exact: then one
+/// will do if all that is asked of its tiles holds.
 TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace) {
+  if (lower.is_empty() || upper.is_empty()) return tile_end(lower, upper, workspace);
   const Scale lengths = scale(lower, upper);
-  const bool is_end = lower.is_empty() || upper.is_empty();  // nothing that could coincide
-  for (int attempt = 0; attempt < most_shears; ++attempt) {
-    const double turn = 2.399963 * attempt;  // the golden angle
-    const double step = attempt * lengths.shear;
-    Slab slab(lower, upper, {step * std::cos(turn), step * std::sin(turn)},
-              std::move(workspace.overlay));
-    if (!is_end && !slab.is_exact()) continue;
-    const Lift lift(slab);
-    Tiling tiling(slab, lift, workspace.wall);
-    TileSet tiles = tiling.run();
-    const bool is_doubtful =
-        !is_end && (attempt > 0 || tiling.is_forced() || slab.is_tight(lengths.tight));
-    workspace.overlay = slab.release();
-    if (is_end) return tiles;
-    collapse_crossings(lower, upper, tiles);
-    if (!is_doubtful || !meet(lower, upper, tiles)) return tiles;
+  for (const Overlay overlay : {Overlay::exact, Overlay::rounded}) {
+    for (int attempt = 0; attempt < most_shears; ++attempt) {
+      const double turn = 2.399963 * attempt;  // the golden angle
+      const double step = attempt * lengths.shear;
+      const Point shear{step * std::cos(turn), step * std::sin(turn)};
+      if (auto tiles = tile_sheared(lower, upper, shear, lengths.tight, overlay, workspace))
+        return std::move(*tiles);
+    }
   }
   return tile_apart(lower, upper, workspace);
 }

@@ -280,5 +280,19 @@ TEST(Triangulation, OfTwoLargeContoursIsValid) {
   EXPECT_GT(mesh.vertex_count(), 5500U + 300U);
 }
 
+// The crossing near the segment's start, rounded, is straight below it, while the segment is not
+// upright: which way is ahead is not for the order of the points to say.
+TEST(Triangulation, DoesNotLeadASegmentBackToItsStart) {
+  Triangulation mesh;
+  mesh.insert(std::array{Point{6, 2}, Point{6, 3}, Point{5, 3}}, closed);
+  const Point start{5.9999999999998002, 2.0000000000006};
+  const ConstraintId c = mesh.insert(std::array{start, Point{6, 1}}, open);
+  const std::vector<EdgeId> pieces = mesh.pieces(c);
+  ASSERT_EQ(pieces.size(), 2U);
+  EXPECT_EQ(mesh.point(mesh.from(pieces[0])), start);
+  EXPECT_EQ(mesh.point(mesh.to(pieces[1])), (Point{6, 1}));
+  EXPECT_TRUE(mesh.snaps().empty());
+}
+
 }  // namespace
 }  // namespace loft::cdt

@@ -100,6 +100,16 @@ TEST(Check, DecidesNestingWhereAllCornersAreShared) {
   EXPECT_EQ(faults(shell + flipped(inward)), (Counts{{"inside_out", 1}}));
 }
 
+TEST(Contacts, AreCountedByPlace) {
+  const Mesh one = cube({0, 0, 0}, 1);
+  EXPECT_EQ(contacts(one), Contacts{});
+  EXPECT_EQ(contacts(one + cube({1, 1, 1}, 1)), (Contacts{1, 0, {1, 1, 1}}));
+  const Mesh along_an_edge = one + cube({1, 1, 0}, 1);
+  EXPECT_EQ(contacts(along_an_edge), (Contacts{2, 1, {1, 1, 0}}));
+  EXPECT_EQ(contacts(along_an_edge + cube({1, -1, 0}, 1)), (Contacts{4, 2, {1, 0, 0}}));
+  EXPECT_EQ(contacts(one + cube({5, 5, 5}, 1)), Contacts{});
+}
+
 TEST(Check, FindsBadIndices) {
   Mesh mesh = cube({0, 0, 0}, 1);
   mesh.faces.push_back({0, 1, 8});

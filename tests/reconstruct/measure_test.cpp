@@ -62,6 +62,16 @@ TEST(Measure, IsAsAccurateFarFromTheOrigin) {
   EXPECT_DOUBLE_EQ(m.area, 1.5);
 }
 
+TEST(Measure, CountsTheHandlesOfAnOpenSurface) {
+  Mesh tube = cube({0, 0, 0}, 1);
+  tube.faces.erase(tube.faces.begin(), tube.faces.begin() + 4);  // bottom and top
+  EXPECT_EQ(measure(tube).genus, 0);
+  Mesh open_torus = torus(3, 1, 20, 10);
+  open_torus.faces.pop_back();
+  EXPECT_EQ(measure(open_torus).genus, 1);
+  EXPECT_EQ(measure(open_torus + tube).genus, 1);
+}
+
 TEST(Measure, CountsOnlyVerticesThatFacesUse) {
   Mesh mesh = cube({0, 0, 0}, 1);
   mesh.points.push_back({9, 9, 9});

@@ -362,6 +362,62 @@ TEST(Reconstruct, EdgesThatTouchAreAllSplitWhereOneIs) {
   }
 }
 
+// A vertex of one slice beside a side of the other by a rounding left no place for the Steiner
+// vertex of a chord: a tile stayed in the plane of the slice.
+TEST(Reconstruct, SheetsOfARoundingLeaveTheSlicePlane) {
+  for (const std::uint64_t seed : {11370U, 11486U}) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    expect_solid(random_stack(seed), random_fill(seed));
+  }
+}
+
+// Contours whose slivers are little wider than rounding: no overlay of the slab is exact.
+TEST(Reconstruct, SliversOfSomeRoundingsAreLinked) {
+  const std::vector<Slice> slices{
+      {0,
+       {{{{1, 3}, {0.99999991746626626, 3.0000000759084258}, {3.99999993, -8.0000000000000002e-08}},
+         {}}}},
+      {1,
+       {{{{4, 2}, {0, 1}, {7.0000000000000005e-08, 1.0000000600000001}}, {}},
+        {{{2, 3},
+          {2, 0},
+          {2.0000000300000003, 2.9999999600000002},
+          {2.0000000115473973, -4.5838378566074009e-08}},
+         {}}}}};
+  const Reconstruction made = reconstruct(slices);
+  EXPECT_EQ(faults(made.surface), "");
+  for (const Defect& defect : made.repairs) EXPECT_NE(defect.kind, DefectKind::unlinked_slices);
+}
+
+// Corners of one slice that differ by a rounding or two.
+TEST(Reconstruct, CornersOfASliceThatNearlyCoincideMakeASolid) {
+  expect_solid({{0, {{{{1, 0}, {1, 1}, {0, 1}}, {}}}},
+                {1,
+                 {{{{1, 6}, {1, 7}, {0, 7}}, {}},
+                  {{{0, 7}, {1.0000000000000007, 7.0000000000000009}, {1, 8}}, {}},
+                  {{{2, 6}, {2, 7}, {0.99999999999999967, 7.0000000000000009}}, {}}}}});
+  expect_solid({{0, {{{{1, 0}, {1, 1}, {0, 1}}, {}}}},
+                {1,
+                 {{{{4, 1}, {4, 1.9999999999999998}, {3, 2}}, {}},
+                  {{{3.9999999999999996, 6.0000000000000009}, {4, 7}, {3, 7}}, {}},
+                  {{{4, 2}, {5, 3}, {4, 3}}, {}},
+                  {{{5, 5}, {5, 6}, {4.0000000000000009, 5.9999999999999991}}, {}},
+                  {{{4, 6}, {5, 6}, {4, 7}}, {}}}}});
+}
+
+// A contour that goes round twice, far from the origin, its laps a rounding apart.
+TEST(Reconstruct, LapsThatNearlyCoincideMakeASolid) {
+  expect_solid({{0,
+                 {{{{1000000.3995874468, -2999999.6000000001},
+                    {1000001, -2999999},
+                    {1000000.3995874468, -2999999.1000000001},
+                    {1000000.3995874468, -2999999.6000000001},
+                    {1000001, -2999999},
+                    {1000000.3995874469, -2999999.1000000001}},
+                   {}}}},
+                {1, {{{{1000000, -3000000}, {1000000.5, -2999999.5}, {1000001, -3000000}}, {}}}}});
+}
+
 TEST(Reconstruct, CopiesThatAreTurnedALittleMakeASolid) {
   for (std::uint64_t seed = 0; seed < 100; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));

@@ -19,7 +19,7 @@ Region clean_slice(const Slice& slice, std::vector<Defect>& repairs, Fill fill =
   std::vector<ContourSource> sources;
   for (std::uint32_t c = 0; c < slice.contours.size(); ++c)
     sources.push_back({slice.contours[c].points, 0, c});
-  return clean(sources, slice.z, fill, repairs);
+  return clean(sources, slice.z, {fill}, repairs);
 }
 
 double area(const Region& region) {
@@ -126,6 +126,211 @@ TEST(Clean, ResolvesCrossingsByTheFillRule) {
   const Region joined = clean_slice(slice, repairs, Fill::nonzero);
   EXPECT_DOUBLE_EQ(area(joined), 32 - 9);
   EXPECT_EQ(joined.points.size(), 8U);
+}
+
+TEST(Clean, ReportsContoursThatCrossInCommonCornersOnly) {
+  // A square and a diamond through the middles of its sides, which are corners of both.
+  const Slice slice{0,
+                    {{{{0, 0}, {2, 0}, {4, 0}, {4, 4}, {2, 4}, {0, 4}}, {}},
+                     {{{2, 0}, {6, 2}, {2, 4}, {1, 2}}, {}}}};
+  std::vector<Defect> repairs;
+  const Region region = clean_slice(slice, repairs);
+  ASSERT_EQ(kinds(repairs), std::vector{DefectKind::overlap});
+  EXPECT_EQ(repairs[0].contour, 1U);
+  EXPECT_EQ(repairs[0].place, (Point{2, 0}));
+  EXPECT_DOUBLE_EQ(area(region), 16 + 10 - 2 * repairs[0].area);
+}
+
+TEST(Clean, CountsAnAreaOnceHoweverManyContoursEncloseIt) {
+  const Slice slice{0,
+                    {stacks::square(2), stacks::square(2, {1, 0.5}), stacks::square(2, {0.5, 1})}};
+  std::vector<Defect> repairs;
+  const Region region = clean_slice(slice, repairs, Fill::nonzero);
+  ASSERT_EQ(repairs.size(), 3U);
+  double decided = 0;
+  for (const Defect& defect : repairs) {
+    EXPECT_EQ(defect.kind, DefectKind::overlap);
+    decided += defect.area;
+  }
+  const double all_three = 3 * 3;
+  EXPECT_DOUBLE_EQ(decided, 48 - area(region) - all_three);
+}
+
+TEST(Clean, SaysWhatACrossingWithManyPlacesIsAsOne) {
+  // Two combs across each other.
+  Contour comb;
+  for (int i = 0; i < 40; ++i) {
+    comb.points.push_back({2.0 * i, 0});
+    comb.points.push_back({2.0 * i, 100});
+    comb.points.push_back({2.0 * i + 1, 100});
+    comb.points.push_back({2.0 * i + 1, 0});
+  }
+  comb.points.insert(comb.points.end(), {{80, -1}, {0, -1}});
+  Contour across = comb;
+  for (Point& p : across.points) p = {p.y - 10.5, p.x + 5.5};
+  std::vector<Defect> repairs;
+  (void)clean_slice({0, {comb, across}}, repairs);
+  ASSERT_EQ(kinds(repairs), std::vector{DefectKind::overlap});
+  EXPECT_DOUBLE_EQ(repairs[0].area, 40 * 40);
+}
+
+TEST(Clean, GivesTheSameWhicheverOfTwoOppositeCopiesComesFirst) {
+  for (const Fill fill : {Fill::even_odd, Fill::nonzero, Fill::keyhole_aware}) {
+    Slice slice{0, {stacks::square(3), stacks::square(1), stacks::square(1)}};
+    std::ranges::reverse(slice.contours[1].points);
+    std::vector<Defect> repairs;
+    const double one = area(clean_slice(slice, repairs, fill));
+    std::swap(slice.contours[1], slice.contours[2]);
+    const double other = area(clean_slice(slice, repairs, fill));
+    EXPECT_EQ(one, other);
+    EXPECT_DOUBLE_EQ(one, fill == Fill::nonzero ? 36 : 36 - 4);
+    EXPECT_EQ(std::ranges::count(kinds(repairs), DefectKind::repeated_contour), 2);
+  }
+}
+
+TEST(Clean, KeepsAContourOnceThatGoesRoundTwice) {
+  for (const Fill fill : {Fill::even_odd, Fill::nonzero}) {
+    Slice slice{0, {stacks::circle(7, 2)}};
+    const std::vector<Point> once = slice.contours[0].points;
+    for (int lap = 0; lap < 2; ++lap)
+      slice.contours[0].points.insert(slice.contours[0].points.end(), once.begin(), once.end());
+    std::vector<Defect> repairs;
+    const Region region = clean_slice(slice, repairs, fill);
+    EXPECT_EQ(region.points.size(), 7U);
+    EXPECT_EQ(kinds(repairs), std::vector{DefectKind::repeated_contour});
+    for (const Origin& origin : region.origins) EXPECT_EQ(origin.kind, VertexKind::contour);
+  }
+}
+
+TEST(Clean, ReportsACornerOnASide) {
+  const Slice slice{0, {stacks::square(2), stacks::square(1, {3, 0.5})}};
+  std::vector<Defect> repairs;
+  const Region region = clean_slice(slice, repairs);
+  EXPECT_EQ(kinds(repairs), std::vector{DefectKind::touching});
+  EXPECT_DOUBLE_EQ(area(region), 20);
+}
+
+TEST(Clean, ReportsACornerOnASideWithoutASharedPart) {
+  const Slice slice{0, {stacks::square(2), {{{2, 0}, {3, -1}, {3, 1}}, {}}}};
+  std::vector<Defect> repairs;
+  EXPECT_EQ(clean_slice(slice, repairs).points.size(), 7U);
+  ASSERT_EQ(kinds(repairs), std::vector{DefectKind::touching});
+  EXPECT_EQ(repairs[0].place, (Point{2, 0}));
+}
+
+// Three sides of a contour go through one place that is no corner; what is around it alternates.
+TEST(Clean, ReportsAPlaceThatAContourPassesThreeTimes) {
+  const Slice slice{0, {{{{1, 0}, {0, 2}, {2, 2}, {2, 1}, {0, 3}, {1, 3}}, {}}}};
+  std::vector<Defect> repairs;
+  (void)clean_slice(slice, repairs);
+  EXPECT_EQ(kinds(repairs), std::vector{DefectKind::self_crossing});
+}
+
+TEST(Clean, SaysNothingOfCornerContacts) {
+  const Slice slice{0, {stacks::square(1), stacks::square(1, {2, 2}), stacks::square(9)}};
+  std::vector<Defect> repairs;
+  EXPECT_EQ(clean_slice(slice, repairs).points.size(), 11U);
+  EXPECT_TRUE(repairs.empty());
+}
+
+TEST(Clean, ReportsContoursThatWindingNumbersMakeNoHole) {
+  const Slice slice{0, {stacks::square(3), stacks::square(1)}};
+  std::vector<Defect> repairs;
+  EXPECT_DOUBLE_EQ(area(clean_slice(slice, repairs, Fill::nonzero)), 36);
+  ASSERT_EQ(kinds(repairs), std::vector{DefectKind::covered});
+  EXPECT_EQ(repairs[0].contour, 1U);
+  EXPECT_DOUBLE_EQ(repairs[0].area, 4);
+}
+
+TEST(Clean, ClosesTheSlitOfAKeyhole) {
+  const double hair = 1e-3;
+  const Slice slice{0,
+                    {{{{-3, -3},
+                       {3, -3},
+                       {3, 3},
+                       {0, 3},
+                       {0, 1},
+                       {-1, -1},
+                       {1, -1},
+                       {hair, 1},
+                       {hair, 3 + hair},
+                       {-3, 3}},
+                      {}}}};
+  std::vector<Defect> repairs;
+  EXPECT_EQ(clean_slice(slice, repairs).loop_count(), 1U);
+  EXPECT_TRUE(repairs.empty() || repairs[0].kind == DefectKind::self_crossing);
+  repairs.clear();
+  const Region region = clean_slice(slice, repairs, Fill::keyhole_aware);
+  EXPECT_EQ(region.loop_count(), 2U);
+  EXPECT_EQ(kinds(repairs), std::vector{DefectKind::keyhole});
+  EXPECT_NEAR(area(region), 36 - 2, 0.01);
+  EXPECT_NEAR(repairs[0].area, 2 * hair, hair / 2);
+}
+
+TEST(Clean, TakesHolesAsContoursOfTheirOwnAlsoWhereItLooksForKeyholes) {
+  const Slice slice{0, {stacks::square(3), stacks::square(2), stacks::square(1)}};
+  std::vector<Defect> repairs;
+  EXPECT_DOUBLE_EQ(area(clean_slice(slice, repairs, Fill::keyhole_aware)), 36 - 16 + 4);
+  EXPECT_TRUE(repairs.empty());
+}
+
+TEST(Clean, JoinsWhatIsTooNearToBeToldApart) {
+  // A ring that is thinner than that, a point given nearly twice, a corner nearly on a side.
+  const double hair = 1e-14;
+  const Slice slice{0,
+                    {stacks::square(3),
+                     stacks::square(3 - hair),
+                     {{{5, 0}, {6, 0}, {6, hair}, {6, 1}}, {}},
+                     {{{9, 0}, {12, 0}, {12, 3}, {9, 3}}, {}},
+                     {{{12 + hair, 1}, {13, 0}, {13, 2}}, {}}}};
+  std::vector<Defect> repairs;
+  const Region region = clean_slice(slice, repairs);
+  EXPECT_NEAR(area(region), 0.5 + 9 + 1, 1e-9);
+  EXPECT_EQ(region.points.size(), 3U + 5U + 2U);
+  EXPECT_FALSE(repairs.empty());
+}
+
+/// Whether a point is inside by the contours as they came, taken one by one (exact).
+bool is_enclosed(const Slice& slice, Point p, Fill fill) {
+  int crossings = 0;
+  int winding = 0;
+  for (const Contour& contour : slice.contours) {
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+      const Point a = contour.points[i];
+      const Point b = contour.points[(i + 1) % contour.points.size()];
+      if ((a.y <= p.y) == (b.y <= p.y) || cdt::orient(a, b, p) != (b.y > a.y ? 1 : -1)) continue;
+      ++crossings;
+      winding += b.y > a.y ? 1 : -1;
+    }
+  }
+  return fill == Fill::nonzero ? winding != 0 : crossings % 2 == 1;
+}
+
+TEST(Clean, EnclosesWhatTheRuleSays) {
+  for (std::uint64_t seed = 0; seed < 300; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const Slice slice = stacks::random_slice(0, random, seed % 2 == 0);
+    for (const Fill fill : {Fill::even_odd, Fill::nonzero, Fill::keyhole_aware}) {
+      std::vector<Defect> repairs;
+      const Region region = clean_slice(slice, repairs, fill);
+      const auto is_changed = [](const Defect& defect) {
+        return defect.kind == DefectKind::repeated_contour || defect.kind == DefectKind::keyhole;
+      };
+      if (std::ranges::any_of(repairs, is_changed)) continue;
+      Slice made{0, {}};
+      for (std::size_t i = 0; i < region.loop_count(); ++i) {
+        made.contours.emplace_back();
+        for (const std::uint32_t v : region.loop(i))
+          made.contours.back().points.push_back(region.points[v]);
+      }
+      for (int k = 0; k < 50; ++k) {
+        const Point p{7 * std::generate_canonical<double, 53>(random),
+                      7 * std::generate_canonical<double, 53>(random)};
+        EXPECT_EQ(is_enclosed(slice, p, fill), is_enclosed(made, p, Fill::even_odd));
+      }
+    }
+  }
 }
 
 TEST(Clean, SplitsABowTieIntoTwoLoopsThatMeet) {

@@ -19,7 +19,7 @@ Region clean_slice(const Slice& slice) {
   for (std::uint32_t c = 0; c < slice.contours.size(); ++c)
     sources.push_back({slice.contours[c].points, 0, c});
   std::vector<Defect> repairs;
-  return clean(sources, slice.z, Fill::even_odd, repairs);
+  return clean(sources, slice.z, {}, repairs);
 }
 
 /// By every edge: the distance, and the parity of those that a ray from p crosses.

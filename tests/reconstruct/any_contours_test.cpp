@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// Whatever the contours of two slices, what is made of them is a valid solid, and contours that
+// need no repair are in it exactly.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include "reconstruct/check.h"
+#include "reconstruct/reconstruct.h"
+#include "tests/reconstruct/random_pairs.h"
+#include "tests/reconstruct/shrink.h"
+
+namespace loft {
+namespace {
+
+using stacks::Pair;
+
+/// The edges of a mesh, by the places of their ends.
+class PlacesOfEdges {
+ public:
+  explicit PlacesOfEdges(const Mesh& mesh) {
+    for (const auto& face : mesh.faces)
+      for (std::size_t i = 0; i < 3; ++i)
+        edges_.insert(std::minmax(mesh.points[face[i]], mesh.points[face[(i + 1) % 3]]));
+  }
+
+  /// Whether there is an edge between two points of a slice, or two halves of one.
+  [[nodiscard]] bool has(cdt::Point a, cdt::Point b, double z) const {
+    const cdt::Point middle{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
+    return has_whole(a, b, z) || (has_whole(a, middle, z) && has_whole(middle, b, z)) ||
+           has_whole(b, {b.x + (a.x - b.x) / 2, b.y + (a.y - b.y) / 2}, z);
+  }
+
+ private:
+  [[nodiscard]] bool has_whole(cdt::Point a, cdt::Point b, double z) const {
+    return edges_.contains(std::minmax(Vec3{a.x, a.y, z}, Vec3{b.x, b.y, z}));
+  }
+
+  std::set<std::pair<Vec3, Vec3>> edges_;
+};
+
+/// The first contour edge, of a slice that needed no repair, that is not in the surface.
+std::string missing_edge(const std::vector<Slice>& slices, const Reconstruction& made) {
+  const PlacesOfEdges edges(to_mesh(made.surface));
+  for (std::uint32_t s = 0; s < slices.size(); ++s) {
+    const auto is_here = [s](const Defect& defect) { return defect.slice == s; };
+    if (std::ranges::any_of(made.repairs, is_here)) continue;
+    for (std::uint32_t c = 0; c < slices[s].contours.size(); ++c) {
+      const auto& points = slices[s].contours[c].points;
+      for (std::uint32_t p = 0; p < points.size(); ++p)
+        if (points[p] != points[(p + 1) % points.size()] &&
+            !edges.has(points[p], points[(p + 1) % points.size()], slices[s].z))
+          return "slice " + std::to_string(s) + " contour " + std::to_string(c) + " point " +
+                 std::to_string(p) + " has lost its edge ";
+    }
+  }
+  return {};
+}
+
+/// What is wrong with the surface between two slices; empty if nothing is.
+std::string complaint(const Pair& pair) {
+  try {
+    const Reconstruction made = reconstruct(pair.slices, {.fill = pair.fill});
+    std::set<std::string> faults;
+    for (const Finding& finding : check(made.surface)) faults.insert(name(finding.fault));
+    std::string all = missing_edge(pair.slices, made);
+    for (const std::string& fault : faults) all += fault + ' ';
+    for (const Defect& defect : made.repairs)
+      if (defect.kind == DefectKind::unlinked_slices) all += "unlinked ";
+    return all;
+  } catch (const InputError& error) {
+    // Fewer than two slices with an area: nothing to make a solid of.
+    const auto& defects = error.defects();
+    return defects.size() == 1 && defects[0].kind == DefectKind::too_few_slices ? "" : error.what();
+  }
+}
+
+/// How many pairs: a few seconds' worth, or what the long run asks for.
+std::uint64_t pairs_wanted() {
+  const char* wanted = std::getenv("LOFT_SOAK_PAIRS");
+  return wanted == nullptr ? 480 : std::strtoull(wanted, nullptr, 10);
+}
+
+std::uint64_t first_pair() {
+  const char* first = std::getenv("LOFT_SOAK_FIRST");
+  return first == nullptr ? 0 : std::strtoull(first, nullptr, 10);
+}
+
+TEST(AnyContours, MakeASolid) {
+  const std::uint64_t first = first_pair();
+  const std::uint64_t wanted = pairs_wanted();
+  int failures = 0;
+  for (std::uint64_t seed = first; seed < first + wanted && failures < 8; ++seed) {
+    const Pair pair = stacks::random_pair(seed);
+    const std::string wrong = complaint(pair);
+    if (wrong.empty()) continue;
+    ++failures;
+    const std::string kind = wrong.substr(0, wrong.find(' '));
+    const auto small = stacks::shrink(pair.slices, [&](const std::vector<Slice>& slices) {
+      return complaint({slices, pair.fill}).starts_with(kind);
+    });
+    ADD_FAILURE() << "seed " << seed << " (" << stacks::kind_of_pair(seed) << "): " << wrong
+                  << "\nfill " << static_cast<int>(pair.fill) << "\n"
+                  << stacks::as_code(small);
+  }
+}
+
+}  // namespace
+}  // namespace loft
