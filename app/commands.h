@@ -27,12 +27,16 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// Whether a stack is read as a whole.
+enum class Memory { by_size, in_memory, out_of_core };
+
 /// `loft reconstruct IN... -o OUT ...`
 struct ReconstructCommand {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::filesystem::path> outputs;
   Options options;
   double metres_per_unit = 0.001;
+  Memory memory = Memory::by_size;
   bool json = false;
   bool quiet = false;
 };

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/out_of_core.h"
 #include "app/terminal.h"
 #include "app/unit.h"
 #include "cdt/triangulation.h"
@@ -134,6 +135,18 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->type_name("N")
       ->check(CLI::Range(0U, 1024U));
   add_triangle_options(*sub, command.options);
+  const auto memory = [&command](Memory choice) {
+    return [&command, choice] { command.memory = choice; };
+  };
+  CLI::Option* const out =
+      sub->add_flag_callback("--out-of-core", memory(Memory::out_of_core),
+                             "Leave the stack in its file and work slab by slab, in little memory; "
+                             "one output, a PLY file, "
+                             "the same as otherwise. The default for inputs above " +
+                                 std::to_string(most_in_memory >> 20U) + " MiB");
+  sub->add_flag_callback("--in-memory", memory(Memory::in_memory),
+                         "Read the stack as a whole, whatever its size")
+      ->excludes(out);
   sub->add_option_function<std::string>(
          "--unit",
          [&command](const std::string& unit) { command.metres_per_unit = *metres_per_unit(unit); },

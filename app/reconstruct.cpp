@@ -9,7 +9,9 @@
 
 #include "app/commands.h"
 #include "app/interrupt.h"
+#include "app/out_of_core.h"
 #include "app/overwriting.h"
+#include "app/place.h"
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
@@ -93,26 +95,9 @@ struct Result {
   PartReport report;
 };
 
-/// `stack.ndjson: label 'heart': ` in front of each line, as far as there is a choice.
-std::string with_place(const std::string& lines, const std::string& place) {
-  std::string result = place;
-  for (const char c : lines) {
-    result += c;
-    if (c == '\n') result += place;
-  }
-  return result;
-}
-
-std::string place_of(const ReconstructCommand& command, const Options& options) {
-  std::string place;
-  if (command.inputs.size() == 1) place += command.inputs[0].string() + ": ";
-  if (options.label) place += "label '" + *options.label + "': ";
-  return place;
-}
-
 /// All labels, or one InputError for all that cannot be reconstructed.
 std::list<Result> reconstruct_all(const ReconstructCommand& command,
-                                    const std::vector<Slice>& stack, Terminal& terminal) {
+                                  const std::vector<Slice>& stack, Terminal& terminal) {
   std::vector<std::string> names = labels(stack);
   if (names.empty()) names.emplace_back();
   const bool is_labelled = names.size() > 1 || !names[0].empty();
@@ -175,16 +160,30 @@ void write_all(const ReconstructCommand& command, const std::list<Result>& resul
   }
 }
 
-void say_summary(const ReconstructCommand& command, const std::list<Result>& results,
-                 Terminal& terminal) {
-  for (const Result& result : results) {
-    const std::string& label = result.report.label;
-    const std::string prefix = label.empty() ? "" : label + ": ";
-    terminal.say(prefix + describe(result.report.measures));
-    if (!result.report.repairs.empty())
-      terminal.say(prefix + describe(summarize(result.report.repairs)));
+void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
+  for (const PartReport& part : report.parts) {
+    const std::string prefix = part.label.empty() ? "" : part.label + ": ";
+    terminal.say(prefix + describe(part.measures));
+    if (!part.repairs.empty()) terminal.say(prefix + describe(summarize(part.repairs)));
   }
   for (const path& output : command.outputs) terminal.say("wrote " + output.string());
+}
+
+void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report& report) {
+  Stopwatch stopwatch;
+  const std::vector<Slice> stack = io::read_slices(command.inputs, command.options.threads);
+  report.input = size_of(stack);
+  report.input.slices = stack.size();
+  report.seconds["read"] = stopwatch.lap();
+
+  std::list<Result> results = reconstruct_all(command, stack, terminal);
+  stopwatch.lap();
+  write_all(command, results);
+  report.seconds["write"] = stopwatch.lap();
+  for (Result& result : results) {
+    for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;
+    report.parts.push_back(std::move(result.report));
+  }
 }
 
 }  // namespace
@@ -193,30 +192,19 @@ ExitCode run(const ReconstructCommand& command) {
   Terminal terminal(command.quiet);
   Report report;
   Stopwatch total;
-  Stopwatch stopwatch;
   check_outputs(command);
+  report.is_out_of_core = is_out_of_core(command);
   catch_interrupts();
-
-  const std::vector<Slice> stack = io::read_slices(command.inputs, command.options.threads);
-  report.input = size_of(stack);
-  report.input.slices = stack.size();
-  report.seconds["read"] = stopwatch.lap();
-
-  std::list<Result> results = reconstruct_all(command, stack, terminal);
-  for (const Result& result : results) warn(command, result.report, terminal);
-  for (const Result& result : results) {
-    for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;
+  if (report.is_out_of_core) {
+    run_out_of_core(command, terminal, report);
+  } else {
+    run_in_memory(command, terminal, report);
   }
-
-  stopwatch.lap();
-  write_all(command, results);
-  report.seconds["write"] = stopwatch.lap();
   report.seconds["total"] = total.lap();
 
-  say_summary(command, results, terminal);
-  if (!command.json) return ExitCode::ok;
-  for (Result& result : results) report.parts.push_back(std::move(result.report));
-  std::cout << to_json(report, command) << '\n';
+  for (const PartReport& part : report.parts) warn(command, part, terminal);
+  say_summary(command, report, terminal);
+  if (command.json) std::cout << to_json(report, command) << '\n';
   return ExitCode::ok;
 }
 

@@ -185,8 +185,8 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"cap", name(command.options.cap)},
       {"smooth", command.options.smooth},
       {"metres_per_unit", command.metres_per_unit}};
-  for (const auto& [setting, length] : lengths(command.options))
-    json["options"][setting] = length;
+  for (const auto& [setting, length] : lengths(command.options)) json["options"][setting] = length;
+  json["out_of_core"] = report.is_out_of_core;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;

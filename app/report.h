@@ -65,9 +65,10 @@ struct PartReport {
 ///     inputs, outputs      file names
 ///     options              fill, keyhole_width (null: by default), cap, smooth, metres_per_unit;
 ///                          max_edge, target_edge, simplify if given
+///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
-///     seconds              of each stage: read, clean, tile, smooth, refine, sew, simplify (those asked for),
-///                          write, total
+///     seconds              of each stage that there is: read, clean, tile, smooth, refine, sew,
+///                          simplify, write, total
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, angles, seconds, vertices_of_kind
 ///                          (contour, cleaning, crossing, steiner), cleaning (area; counts by kind;
@@ -82,6 +83,7 @@ struct Report {
   StackSize input;
   std::vector<PartReport> parts;
   std::map<std::string, double> seconds;
+  bool is_out_of_core = false;
 };
 
 [[nodiscard]] std::string to_json(const Report& report, const ReconstructCommand& command);

@@ -59,15 +59,26 @@ void Terminal::complain(std::string_view lines) {
 
 void Terminal::show_progress(std::string_view activity, double fraction) {
   if (!has_bar_) return;
+  if (bar_.empty()) begin_ = std::chrono::steady_clock::now();
   constexpr std::size_t width = 30;
   const double part = std::clamp(fraction, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(part * width);
   std::string bar(1, '[');
   bar.append(filled, '#').append(width - filled, ' ').append("] ");
   bar.append(std::to_string(static_cast<int>(part * 100))).append("% ").append(activity);
+  bar += time_left(part);
   if (bar == bar_) return;
   bar_ = std::move(bar);
   std::cerr << clear_line << bar_ << std::flush;
+}
+
+/// `, 12 s left`, going by how long it took so far; nothing as long as that says little.
+std::string Terminal::time_left(double fraction) const {
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin_;
+  if (elapsed.count() < 2 || fraction < 0.02) return {};
+  const auto seconds = static_cast<long>(elapsed.count() * (1 - fraction) / fraction + 0.5);
+  if (seconds < 100) return ", " + std::to_string(seconds) + " s left";
+  return ", " + std::to_string((seconds + 30) / 60) + " min left";
 }
 
 void Terminal::clear_progress() {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
@@ -21,17 +22,20 @@ class Terminal {
   /// One line each, `error: ` in front.
   void complain(std::string_view lines);
 
-  /// Draws the bar, from 0 to 1, if it has moved; clear_progress() takes it away.
+  /// Draws the bar, from 0 to 1, and about how long it will take, if that has changed;
+  /// clear_progress() takes it away, and what comes then is another task.
   void show_progress(std::string_view activity, double fraction);
   void clear_progress();
 
  private:
+  [[nodiscard]] std::string time_left(double fraction) const;
   void print(std::string_view colour, std::string_view prefix, std::string_view line);
 
   bool quiet_;
   bool has_bar_;
   bool has_colour_;
-  std::string bar_;  // what is drawn now
+  std::string bar_;                              // what is drawn now
+  std::chrono::steady_clock::time_point begin_;  // of the task
 };
 
 }  // namespace loft::app

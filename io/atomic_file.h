@@ -19,6 +19,8 @@ class AtomicFile {
   AtomicFile& operator=(const AtomicFile&) = delete;
 
   [[nodiscard]] std::ostream& stream() { return stream_; }
+  /// What it is called until it is committed.
+  [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
   /// Puts the file in its place, over what was there. Throws FileError if a write had failed.
   void commit();

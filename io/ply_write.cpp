@@ -1,51 +1,38 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cstdint>
+#include <optional>
 
-#include "io/little_endian.h"
 #include "io/ply.h"
+#include "io/ply_records.h"
 #include "io/text.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
 
-namespace {
-
-bool has_labels(std::span<const Part> parts) {
-  return parts.size() > 1 || (parts.size() == 1 && !parts[0].label.empty());
+bool ply_has_labels(std::span<const std::string> labels) {
+  return labels.size() > 1 || (labels.size() == 1 && !labels[0].empty());
 }
 
-struct Counts {
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-};
-
-Counts count(std::span<const Part> parts) {
-  Counts result;
-  for (const Part& part : parts) {
-    result.vertices += part.surface->n_vertices();
-    result.faces += part.surface->n_faces();
-  }
-  return result;
-}
-
-std::string header(std::span<const Part> parts, Counts counts) {
+std::string ply_header(std::span<const std::string> labels, PlyCounts counts) {
+  if (counts.vertices > 0x7fff'ffff) throw Error("more vertices than a PLY file can number");
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment " + std::string(generator());
   text += '\n';
-  const bool labelled = has_labels(parts);
-  for (std::size_t i = 0; labelled && i < parts.size(); ++i) {
-    text += "comment label " + std::to_string(i) + ' ' + one_line(parts[i].label) + '\n';
+  const bool is_labelled = ply_has_labels(labels);
+  for (std::size_t i = 0; is_labelled && i < labels.size(); ++i) {
+    text += "comment label " + std::to_string(i) + ' ' + one_line(labels[i]) + '\n';
   }
   text += "element vertex " + std::to_string(counts.vertices) +
           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar kind\n"
           "property int slice\nproperty int contour\nproperty int point\n";
-  if (labelled) text += "property int label\n";
+  if (is_labelled) text += "property int label\n";
   text += "element face " + std::to_string(counts.faces) +
           "\nproperty list uchar int vertex_indices\nproperty uchar kind\nproperty int slab\n";
-  if (labelled) text += "property int label\n";
+  if (is_labelled) text += "property int label\n";
   return text + "end_header\n";
 }
+
+namespace {
 
 /// Appends `count` records of `size` bytes and hands out the place of the first.
 char* grow(std::string& bytes, std::size_t count, std::size_t size) {
@@ -54,56 +41,52 @@ char* grow(std::string& bytes, std::size_t count, std::size_t size) {
   return bytes.data() + before;
 }
 
-/// `Origin::none` turns into -1.
-std::int32_t index_or_none(std::uint32_t index) { return static_cast<std::int32_t>(index); }
-
-void append_vertices(std::string& bytes, const Surface& surface, std::int32_t label,
-                     bool labelled) {
-  const std::size_t size = 3 * 8 + 1 + 3 * 4 + (labelled ? 4 : 0);
-  char* place = grow(bytes, surface.n_vertices(), size);
+void append_vertices(std::string& bytes, const Surface& surface,
+                     std::optional<std::int32_t> label) {
+  char* place = grow(bytes, surface.n_vertices(), ply_vertex_size(label.has_value()));
   for (const auto vertex : surface.vertices()) {
-    const auto& point = surface.point(vertex);
-    const Origin& origin = surface.data(vertex).origin;
-    for (const double coordinate : {point[0], point[1], point[2]}) place = put(place, coordinate);
-    place = put(place, static_cast<std::uint8_t>(origin.kind));
-    for (const std::uint32_t index : {origin.slice, origin.contour, origin.point}) {
-      place = put(place, index_or_none(index));
-    }
-    if (labelled) place = put(place, label);
+    const auto& p = surface.point(vertex);
+    place = put_ply_vertex(place, {p[0], p[1], p[2]}, surface.data(vertex).origin, label);
   }
 }
 
 void append_faces(std::string& bytes, const Surface& surface, std::size_t first_vertex,
-                  std::int32_t label, bool labelled) {
-  const std::size_t size = 1 + 3 * 4 + 1 + 4 + (labelled ? 4 : 0);
-  char* place = grow(bytes, surface.n_faces(), size);
+                  std::optional<std::int32_t> label) {
+  char* place = grow(bytes, surface.n_faces(), ply_face_size(label.has_value()));
   for (const auto face : surface.faces()) {
-    place = put(place, std::uint8_t{3});
-    for (const auto vertex : surface.fv_range(face)) {
-      const std::size_t index = first_vertex + static_cast<std::size_t>(vertex.idx());
-      place = put(place, static_cast<std::int32_t>(index));
-    }
-    place = put(place, static_cast<std::uint8_t>(surface.data(face).kind));
-    place = put(place, index_or_none(surface.data(face).slab));
-    if (labelled) place = put(place, label);
+    std::array<std::uint32_t, 3> corners{};
+    std::size_t i = 0;
+    for (const auto vertex : surface.fv_range(face))
+      corners[i++] =
+          static_cast<std::uint32_t>(first_vertex + static_cast<std::size_t>(vertex.idx()));
+    const auto& data = surface.data(face);
+    place = put_ply_face(place, corners, data.kind, data.slab, label);
   }
 }
 
 }  // namespace
 
 void write_ply(std::ostream& out, std::span<const Part> parts, const WriteOptions&) {
-  const Counts counts = count(parts);
-  if (counts.vertices > 0x7fff'ffff) throw Error("more vertices than a PLY file can number");
-  const bool labelled = has_labels(parts);
-  std::string bytes = header(parts, counts);
-  bytes.reserve(bytes.size() + counts.vertices * 41 + counts.faces * 22);
-  std::int32_t label = 0;
-  for (const Part& part : parts) append_vertices(bytes, *part.surface, label++, labelled);
-  label = 0;
-  std::size_t first_vertex = 0;
+  PlyCounts counts;
+  std::vector<std::string> labels;
   for (const Part& part : parts) {
-    append_faces(bytes, *part.surface, first_vertex, label++, labelled);
-    first_vertex += part.surface->n_vertices();
+    counts.vertices += part.surface->n_vertices();
+    counts.faces += part.surface->n_faces();
+    labels.push_back(part.label);
+  }
+  const bool is_labelled = ply_has_labels(labels);
+  const auto label_of = [&](std::size_t part) {
+    return is_labelled ? std::optional(static_cast<std::int32_t>(part)) : std::nullopt;
+  };
+  std::string bytes = ply_header(labels, counts);
+  bytes.reserve(bytes.size() + counts.vertices * ply_vertex_size(is_labelled) +
+                counts.faces * ply_face_size(is_labelled));
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    append_vertices(bytes, *parts[i].surface, label_of(i));
+  std::size_t first_vertex = 0;
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    append_faces(bytes, *parts[i].surface, first_vertex, label_of(i));
+    first_vertex += parts[i].surface->n_vertices();
   }
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }

@@ -10,6 +10,7 @@
 #include "io/json_reader.h"
 #include "io/problems.h"
 #include "io/slice_line.h"
+#include "io/slice_lines.h"
 #include "io/text.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/parallel.h"
@@ -21,6 +22,7 @@ namespace {
 struct NumberedLine {
   std::string text;
   std::size_t number = 0;  // in the file, from 1
+  LinePlace place;
 };
 
 bool is_blank(std::string_view line) {
@@ -58,6 +60,8 @@ class Batches {
       NumberedLine& line = lines_[count];
       if (!std::getline(in_, line.text)) break;
       line.number = ++number_;
+      line.place = {offset_, line.text.size()};
+      offset_ += line.text.size() + 1;
       if (number_ == 1) line.text = without_mark(line.text);
       if (is_blank(line.text)) continue;
       size += line.text.size();
@@ -71,31 +75,39 @@ class Batches {
 
   std::istream& in_;
   std::size_t number_ = 0;
+  std::uint64_t offset_ = 0;
   std::vector<NumberedLine> lines_;  // their memory is used again
 };
 
 }  // namespace
 
-std::vector<Slice> read_slices_json(std::istream& in, std::string_view name, unsigned threads) {
-  std::vector<Slice> slices;
+void for_each_slice(std::istream& in, std::string_view name, unsigned threads,
+                    const std::function<void(Slice&& slice, LinePlace place)>& take) {
   Problems problems;
   Batches batches(in);
+  std::size_t count = 0;
   for (auto lines = batches.next(); !lines.empty(); lines = batches.next()) {
     std::vector<SliceLine> parsed(lines.size());
     for_each_index(lines.size(), threads,
                    [&](std::size_t i, unsigned) { parsed[i] = parse_slice_line(lines[i].text); });
-    for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t i = 0; i < lines.size(); ++i, ++count) {
       for (const std::string& problem : parsed[i].problems)
-        problems.add(place(name, lines[i].number, slices.size(), parsed[i]) + problem);
-      slices.push_back(std::move(parsed[i].slice));
+        problems.add(place(name, lines[i].number, count, parsed[i]) + problem);
+      take(std::move(parsed[i].slice), lines[i].place);
     }
   }
   if (in.bad()) throw FileError(Access::read, std::filesystem::path(name), "read failed");
   problems.raise(name);
-  if (slices.empty()) {
+  if (count == 0) {
     throw InputError(std::string(name) +
                      ": no slices in it; expected lines {\"z\": ..., \"contours\": [...]}");
   }
+}
+
+std::vector<Slice> read_slices_json(std::istream& in, std::string_view name, unsigned threads) {
+  std::vector<Slice> slices;
+  for_each_slice(in, name, threads,
+                 [&](Slice&& slice, LinePlace) { slices.push_back(std::move(slice)); });
   return slices;
 }
 

@@ -15,8 +15,7 @@ std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index) {
   std::vector<Defect> found;
   const auto note = [&](std::optional<std::uint32_t> contour, std::optional<std::uint32_t> point,
                         const char* message) {
-    found.push_back(
-        {DefectKind::not_finite, slice.z, index, contour, point, {}, 0, message});
+    found.push_back({DefectKind::not_finite, slice.z, index, contour, point, {}, 0, message});
   };
   if (!(std::abs(slice.z) <= cdt::Triangulation::largest_coordinate))
     note({}, {}, "the height is not a finite number below 1e75; correct it or leave the slice out");

@@ -92,10 +92,10 @@ class Lift {
   std::uint32_t contour_count_;
   bool is_complete_ = false;
   std::vector<InnerVertex> inner_;
-  std::vector<std::uint32_t> nodes_;        // of each overlay vertex; of a column the lower one
-  std::vector<Height> heights_;             // of each overlay vertex
-  std::vector<cdt::VertexId> columns_;      // in the order of their places
-  std::vector<Height> column_heights_;      // of each corner at a column
+  std::vector<std::uint32_t> nodes_;    // of each overlay vertex; of a column the lower one
+  std::vector<Height> heights_;         // of each overlay vertex
+  std::vector<cdt::VertexId> columns_;  // in the order of their places
+  std::vector<Height> column_heights_;  // of each corner at a column
   std::map<std::pair<cdt::VertexId, cdt::SegmentId>, Level> choices_;  // by a wedge's first edge
 };
 

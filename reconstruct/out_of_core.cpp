@@ -191,8 +191,8 @@ class Work {
     if (options_.cap == Cap::flat) {
       const std::size_t last = slab_bound_ - 1;
       std::vector<Layer> cap;
-      cap.push_back(top_cap(regions_[last + 1], static_cast<std::uint32_t>(last),
-                            regions_[last].slice));
+      cap.push_back(
+          top_cap(regions_[last + 1], static_cast<std::uint32_t>(last), regions_[last].slice));
       sewing_.add(std::move(cap), options_.threads);
     }
     sewing_.finish(options_.threads);
@@ -233,18 +233,16 @@ class Work {
     vertices_.clear();
     add_slice(*layer.lower);
     for (const InnerVertex& inner : layer.tiles.inner)
-      vertices_.push_back(
-          {inner.place, {inner.kind, layer.slice, Origin::none, Origin::none}});
-    const bool is_last = sewing_.final_bound() == sewing_.layer_bound() &&
-                         number + 1 == sewing_.layer_bound();
+      vertices_.push_back({inner.place, {inner.kind, layer.slice, Origin::none, Origin::none}});
+    const bool is_last =
+        sewing_.final_bound() == sewing_.layer_bound() && number + 1 == sewing_.layer_bound();
     if (is_last) add_slice(*layer.upper);
     pass_on_vertices(vertices_);
   }
 
   void add_slice(const Region& region) {
     for (std::size_t i = 0; i < region.points.size(); ++i)
-      vertices_.push_back(
-          {{region.points[i].x, region.points[i].y, region.z}, region.origins[i]});
+      vertices_.push_back({{region.points[i].x, region.points[i].y, region.z}, region.origins[i]});
   }
 
   void pass_on_faces_of(std::uint32_t number) {

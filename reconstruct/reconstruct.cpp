@@ -120,10 +120,12 @@ Surroundings surroundings(std::span<const SliceShape> shapes, std::size_t slab) 
 
 void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs, unsigned threads,
                 const Progress& progress) {
-  Reporter reporter(progress, Stage::smooth, slabs.size());
+  Reporter reporter(progress, Stage::smooth, regions.size() + slabs.size());
   std::vector<SliceShape> shapes(regions.size());
-  for_each_index(regions.size(), threads,
-                 [&](std::size_t i, unsigned) { shapes[i] = SliceShape(regions[i]); });
+  for_each_index(regions.size(), threads, [&](std::size_t i, unsigned) {
+    shapes[i] = SliceShape(regions[i]);
+    reporter.add_step();
+  });
   for_each_index(slabs.size(), threads, [&](std::size_t i, unsigned) {
     slabs[i] = smooth(regions[i], regions[i + 1], surroundings(shapes, i), std::move(slabs[i]));
     reporter.add_step();

@@ -26,7 +26,8 @@ Sewing sew_layers(std::span<const Region> regions, std::vector<TileSet> slabs, C
     batch.push_back({&regions[i], &regions[i + 1], std::move(slabs[i]), i, regions[i].slice});
     if (batch.size() == batch_size) sewing.add(std::exchange(batch, {}), threads);
   }
-  if (cap == Cap::flat) batch.push_back(top_cap(regions.back(), count - 1, regions[count - 1].slice));
+  if (cap == Cap::flat)
+    batch.push_back(top_cap(regions.back(), count - 1, regions[count - 1].slice));
   sewing.add(std::move(batch), threads);
   sewing.finish(threads);
   return sewing;
@@ -90,9 +91,9 @@ class Assembly {
 
   [[nodiscard]] std::uint32_t number(HalfEdge h) const {
     const std::uint32_t own = sewing_.face_count(h.layer);
-    const std::uint64_t face = h.face() < own ? sewing_.first_face(h.layer) + h.face()
-                                              : sewing_.plain_face_count() +
-                                                    sewing_.cuts_of(h.layer)[h.face() - own];
+    const std::uint64_t face =
+        h.face() < own ? sewing_.first_face(h.layer) + h.face()
+                       : sewing_.plain_face_count() + sewing_.cuts_of(h.layer)[h.face() - own];
     return static_cast<std::uint32_t>(3 * face + h.index % 3);
   }
 
@@ -201,8 +202,8 @@ class Assembly {
   Surface& surface_;
   unsigned threads_;
   VertexNumbers numbers_;
-  std::vector<Handle> handles_;                          // of each half-edge, by its number
-  std::vector<std::vector<Handle>> rims_;                // of each group
+  std::vector<Handle> handles_;            // of each half-edge, by its number
+  std::vector<std::vector<Handle>> rims_;  // of each group
 };
 
 }  // namespace

@@ -96,7 +96,8 @@ std::uint32_t Sewing::vertex(HalfEdge corner) const {
 Vec3 Sewing::place(HalfEdge corner) const {
   const State& state = at(corner.layer);
   const std::uint32_t node = state.node(corner.index);
-  if ((node & VertexNumbers::midpoint_mark) == VertexNumbers::midpoint_mark) return midpoints_[node & number_bits].place;
+  if ((node & VertexNumbers::midpoint_mark) == VertexNumbers::midpoint_mark)
+    return midpoints_[node & number_bits].place;
   if ((node & VertexNumbers::doubled_mark) != 0) return doubled_[node & number_bits].place;
   return place_of(*state.layer.lower, *state.layer.upper, state.layer.tiles.inner, node);
 }
@@ -106,7 +107,7 @@ Vec3 Sewing::place(HalfEdge corner) const {
 void Sewing::add(std::vector<Layer> layers, unsigned threads) {
   const std::uint32_t first = layer_bound();
   for (Layer& layer : layers) {
-    layers_.push_back({.layer = std::move(layer)});
+    layers_.emplace_back().layer = std::move(layer);
     number(layers_.back());
   }
   for_each_index(layers.size(), threads, [&](std::size_t i, unsigned) {
@@ -396,8 +397,8 @@ void Sewing::add_fans(std::span<const HalfEdge> corners, Found& found) const {
   }
 }
 
-/// Doubles the vertices whose further fans begin in a layer; then cuts the double edges in it and in
-/// the slice below. So the layer below is final.
+/// Doubles the vertices whose further fans begin in a layer; then cuts the double edges in it and
+/// in the slice below. So the layer below is final.
 void Sewing::separate(std::uint32_t layer) {
   State& state = at(layer);
   std::ranges::sort(state.fans, {}, [](const Fan& fan) { return fan.front(); });

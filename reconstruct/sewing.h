@@ -114,9 +114,9 @@ class Sewing {
     Layer layer;
     std::uint32_t lower_count = 0;    // nodes of the slice below
     std::uint32_t contour_count = 0;  // and of that above
-    std::uint32_t lower = 0;  // number of the first vertex of the slice below
-    std::uint32_t inner = 0;  // of the first inner vertex
-    std::uint32_t upper = 0;  // of the first vertex of the slice above
+    std::uint32_t lower = 0;          // number of the first vertex of the slice below
+    std::uint32_t inner = 0;          // of the first inner vertex
+    std::uint32_t upper = 0;          // of the first vertex of the slice above
     std::uint32_t face_count = 0;
     std::uint64_t first_face = 0;
     std::vector<std::uint32_t> mates;      // of each half-edge, coded
@@ -126,7 +126,7 @@ class Sewing {
     std::vector<std::uint32_t> first_corners;  // of each node, or none
     std::vector<Crowd> crowds;
     std::vector<std::uint32_t> cuts;  // places of its cut faces in cut_faces_
-    std::vector<Fan> fans;  // those that begin here and need a vertex of their own
+    std::vector<Fan> fans;            // those that begin here and need a vertex of their own
 
     [[nodiscard]] std::uint32_t node(std::uint32_t half_edge) const {
       return layer.tiles.tiles[half_edge / 3].nodes[half_edge % 3];
@@ -180,7 +180,7 @@ class Sewing {
 
   std::deque<State> layers_;
   std::uint32_t first_layer_ = 0;
-  std::uint32_t joined_bound_ = 0;  // layers below are joined to the one under them
+  std::uint32_t joined_bound_ = 0;   // layers below are joined to the one under them
   std::uint32_t settled_bound_ = 0;  // layers below have doubled vertices and cut edges
   std::uint32_t final_bound_ = 0;
   std::vector<Crowd> top_crowds_;  // in the slice above the last layer

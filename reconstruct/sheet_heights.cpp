@@ -75,7 +75,8 @@ Point SheetHeights::centroid(TriangleId t) const {
 void SheetHeights::explore(TriangleId start) {
   const Triangulation& mesh = slab_.overlay();
   const auto id = static_cast<std::uint32_t>(sheets_.size());
-  Sheet sheet{.first = triangles_.size()};
+  Sheet sheet;
+  sheet.first = triangles_.size();
   front_.assign(1, start);
   sheet_of_[start.index()] = id;
   while (!front_.empty()) {

@@ -24,8 +24,8 @@ struct SurfaceFace {
 
 /// How vertices are numbered while it is not known yet how many there will be. First come the
 /// plain ones: of slices and of the inside of slabs. Behind them come those that sewing adds where
-/// parts touch: first the doubled ones, then midpoints of edges. Until the end these two are counted
-/// for themselves and marked by the highest bits.
+/// parts touch: first the doubled ones, then midpoints of edges. Until the end these two are
+/// counted for themselves and marked by the highest bits.
 struct VertexNumbers {
   static constexpr std::uint32_t doubled_mark = 0x8000'0000;
   static constexpr std::uint32_t midpoint_mark = 0xc000'0000;

@@ -158,9 +158,8 @@ TEST(OutOfCore, PassesOnWhatReadingThrowsAndStopsWhenAskedTo) {
   } catch (const Error& error) {
     EXPECT_STREQ(error.what(), "slice 17");
   }
-  EXPECT_THROW((void)reconstruct_out_of_core(
-                   source(slices, 1U << 20U), {}, kept,
-                   [](Stage, double fraction) { return fraction < 0.5; }),
+  EXPECT_THROW((void)reconstruct_out_of_core(source(slices, 1U << 20U), {}, kept,
+                                             [](Stage, double fraction) { return fraction < 0.5; }),
                Cancelled);
 }
 

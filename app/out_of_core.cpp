@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "app/out_of_core.h"
+
+#include <algorithm>
+#include <map>
+#include <system_error>
+#include <utility>
+
+#include "app/interrupt.h"
+#include "app/place.h"
+#include "app/stopwatch.h"
+#include "io/file.h"
+#include "io/ply_pieces.h"
+#include "io/stack_file.h"
+#include "reconstruct/out_of_core.h"
+#include "reconstruct/reconstruct.h"
+
+namespace loft::app {
+
+namespace {
+
+using std::filesystem::path;
+
+// Shares of the time.
+constexpr double share_of_reading = 0.1;
+constexpr double share_of_surfaces = 0.85;
+
+bool is_one_ply(const ReconstructCommand& command) {
+  return command.outputs.size() == 1 && io::extension(command.outputs[0]) == ".ply";
+}
+
+std::uintmax_t input_size(const ReconstructCommand& command) {
+  std::uintmax_t size = 0;
+  for (const path& input : command.inputs) {
+    std::error_code error;
+    const std::uintmax_t one = std::filesystem::file_size(input, error);
+    if (!error) size += one;
+  }
+  return size;
+}
+
+/// What the first look at all slices tells.
+class Overview {
+ public:
+  void add(const Slice& slice) {
+    std::ranges::move(find_unusable(slice, static_cast<std::uint32_t>(total_.slices)),
+                      std::back_inserter(unusable_));
+    ++total_.slices;
+    std::map<std::string, std::size_t> seen;
+    for (const Contour& contour : slice.contours) {
+      StackSize& size = labels_[contour.label];
+      if (++seen[contour.label] == 1) ++size.slices;
+      ++size.contours;
+      size.vertices += contour.points.size();
+      ++total_.contours;
+      total_.vertices += contour.points.size();
+    }
+  }
+
+  [[nodiscard]] const StackSize& total() const { return total_; }
+  [[nodiscard]] const std::vector<Defect>& unusable() const { return unusable_; }
+  [[nodiscard]] std::vector<std::string> labels() const {
+    std::vector<std::string> names;
+    for (const auto& [label, size] : labels_) names.push_back(label);
+    if (names.empty()) names.emplace_back();
+    return names;
+  }
+  [[nodiscard]] StackSize size_of(const std::string& label) const {
+    const auto found = labels_.find(label);
+    return found == labels_.end() ? StackSize() : found->second;
+  }
+
+ private:
+  StackSize total_;
+  std::map<std::string, StackSize> labels_;
+  std::vector<Defect> unusable_;
+};
+
+}  // namespace
+
+bool is_out_of_core(const ReconstructCommand& command) {
+  if (command.memory == Memory::out_of_core && !is_one_ply(command))
+    throw UsageError("--out-of-core writes one PLY file; give one output OUT.ply");
+  if (command.memory != Memory::by_size) return command.memory == Memory::out_of_core;
+  const bool reads_files = std::ranges::find(command.inputs, path("-")) == command.inputs.end();
+  return is_one_ply(command) && reads_files && input_size(command) > most_in_memory;
+}
+
+void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report) {
+  Stopwatch stopwatch;
+  Overview overview;
+  const io::StackFile stack(command.inputs, command.options.threads,
+                            [&](const Slice& slice, double share) {
+                              overview.add(slice);
+                              terminal.show_progress("read", share_of_reading * share);
+                              if (is_interrupted()) throw Cancelled();
+                            });
+  if (!overview.unusable().empty())
+    throw InputError(
+        with_place(InputError(overview.unusable()).what(), place_of(command, Options())));
+  report.input = overview.total();
+  report.seconds["read"] = stopwatch.lap();
+
+  const std::vector<std::string> names = overview.labels();
+  const bool is_labelled = names.size() > 1 || !names[0].empty();
+  io::PlyPieces output(command.outputs[0], names);
+  std::string problems;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    Options options = command.options;
+    if (is_labelled) options.label = names[i];
+    const auto follow = [&](Stage stage, double fraction) {
+      const double done = (static_cast<double>(i) + fraction) / static_cast<double>(names.size());
+      terminal.show_progress(name(stage) + (' ' + names[i]),
+                             share_of_reading + share_of_surfaces * done);
+      return !is_interrupted();
+    };
+    try {
+      OutOfCoreReport made = reconstruct_out_of_core(stack.source(), options, output, follow);
+      PartReport& part = report.parts.emplace_back();
+      part.label = names[i];
+      part.input = overview.size_of(names[i]);
+      part.measures = made.measures;
+      part.vertices_of_kind = made.vertices_of_kind;
+      part.repairs = std::move(made.repairs);
+      part.seconds["tile"] = stopwatch.lap();
+      report.seconds["tile"] += part.seconds["tile"];
+    } catch (const InputError& error) {
+      if (!problems.empty()) problems += '\n';
+      problems += with_place(error.what(), place_of(command, options));
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+  terminal.show_progress("write", share_of_reading + share_of_surfaces);
+  output.commit();
+  terminal.clear_progress();
+  report.seconds["write"] = stopwatch.lap();
+}
+
+}  // namespace loft::app

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/atomic_file.h"
+#include "reconstruct/surface_sink.h"
+
+namespace loft::io {
+
+/// Writes a PLY file from surfaces that come piece by piece: the bytes of write_ply().
+///
+/// Vertices and faces go into files of their own beside the output, `.OUT.vertices.N.part` and
+/// `.OUT.faces.N.part`; commit() joins them, so that for a while twice the room is needed. Nothing
+/// is left behind if it does not come to that. All functions throw FileError where a file cannot be
+/// written.
+class PlyPieces : public SurfaceSink {
+ public:
+  /// Each label is one surface, in this order; a single empty one if there are none.
+  PlyPieces(std::filesystem::path path, std::vector<std::string> labels);
+
+  void add_vertices(std::span<const SurfaceVertex> vertices) override;
+  void add_faces(std::span<const SurfaceFace> faces) override;
+  /// The end of one surface; what comes then is the next one.
+  void end(const VertexNumbers& numbers) override;
+
+  /// Puts the file in its place. Precondition: all surfaces have ended.
+  void commit();
+
+ private:
+  struct Part {
+    std::uint64_t first_vertex = 0;
+    std::uint64_t vertex_count = 0;
+    std::uint64_t face_count = 0;
+    VertexNumbers numbers;
+  };
+
+  [[nodiscard]] std::optional<std::int32_t> label() const;
+  void copy_vertices(std::ostream& out);
+  void copy_faces(std::ostream& out);
+
+  std::filesystem::path path_;
+  std::vector<std::string> labels_;
+  bool is_labelled_;
+  AtomicFile vertices_;  // never committed: these two go away in the end
+  AtomicFile faces_;
+  std::vector<Part> parts_{1};  // the last one is at hand
+  std::string bytes_;
+};
+
+}  // namespace loft::io

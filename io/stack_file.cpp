@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: MIT
+#include "io/stack_file.h"
+
+#include <fstream>
+#include <string>
+#include <system_error>
+
+#include "io/file.h"
+#include "io/slice_line.h"
+#include "io/slices.h"
+#include "io/text.h"
+#include "reconstruct/defect.h"
+
+namespace loft::io {
+
+namespace {
+
+std::ifstream open(const std::filesystem::path& path) {
+  if (path == "-")
+    throw FileError(Access::read, "standard input",
+                    "it cannot be read twice, as working out of core asks for; give a file");
+  if (std::filesystem::is_directory(path)) throw FileError(Access::read, path, "it is a folder");
+  std::ifstream file(path, std::ios::binary);
+  if (!file) throw FileError(Access::read, path, last_cause());
+  if (!is_slice_file(path)) throw UnknownFormat(path, slice_extensions());
+  return file;
+}
+
+std::uint64_t size_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto size = std::filesystem::file_size(path, ignored);
+  return ignored ? 0 : size;
+}
+
+std::size_t count_points(const Slice& slice) {
+  std::size_t count = 0;
+  for (const Contour& contour : slice.contours) count += contour.points.size();
+  return count;
+}
+
+}  // namespace
+
+StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned threads,
+                     const Visit& visit)
+    : paths_(paths.begin(), paths.end()) {
+  std::uint64_t total = 0;
+  for (const auto& path : paths_) total += size_of(path);
+  std::uint64_t before = 0;
+  std::string problems;
+  for (std::size_t f = 0; f < paths_.size(); ++f) {
+    try {
+      std::ifstream file = open(paths_[f]);
+      for_each_slice(file, paths_[f].string(), threads, [&](Slice&& slice, LinePlace place) {
+        entries_.push_back({f, place, slice.z, count_points(slice)});
+        const std::uint64_t done = before + place.offset + place.length;
+        visit(slice, total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total));
+      });
+    } catch (const InputError& error) {
+      if (!problems.empty()) problems += '\n';
+      problems += error.what();
+    }
+    before += size_of(paths_[f]);
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
+SliceSource StackFile::source() const {
+  SliceSource source;
+  for (const Entry& entry : entries_) source.slices.push_back({entry.z, entry.points});
+  source.read = [this](std::uint32_t i) { return read(i); };
+  return source;
+}
+
+Slice StackFile::read(std::uint32_t i) const {
+  const Entry& entry = entries_[i];
+  std::ifstream file = open(paths_[entry.file]);
+  std::string text(entry.place.length, '\0');
+  file.seekg(static_cast<std::streamoff>(entry.place.offset));
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  SliceLine line;
+  if (file) line = parse_slice_line(without_mark(text));
+  if (!file || !line.problems.empty() || line.z != entry.z)
+    throw FileError(Access::read, paths_[entry.file], "it changed while it was being read");
+  return std::move(line.slice);
+}
+
+}  // namespace loft::io

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "io/slice_lines.h"
+#include "reconstruct/out_of_core.h"
+#include "reconstruct/slice.h"
+
+namespace loft::io {
+
+/// A stack that stays in its files: it knows where each slice is, and reads it when it is asked
+/// for.
+class StackFile {
+ public:
+  /// Gets to see each slice once, in order, and the share of the input that has been read.
+  using Visit = std::function<void(const Slice& slice, double share)>;
+
+  /// Reads the files through, slice by slice, to know where each is and that all can be read.
+  /// Throws what read_slices() does, with all bad lines; and FileError for standard input, which
+  /// cannot be read a second time.
+  StackFile(std::span<const std::filesystem::path> paths, unsigned threads, const Visit& visit);
+
+  /// For reconstruct_out_of_core(). Refers to this.
+  [[nodiscard]] SliceSource source() const;
+  /// Slice i, in the order of the files. By several threads at once if need be.
+  /// Throws FileError where the file is no longer what it was.
+  [[nodiscard]] Slice read(std::uint32_t i) const;
+
+ private:
+  struct Entry {
+    std::size_t file;
+    LinePlace place;
+    double z;
+    std::size_t points;
+  };
+
+  std::vector<std::filesystem::path> paths_;
+  std::vector<Entry> entries_;
+};
+
+}  // namespace loft::io
