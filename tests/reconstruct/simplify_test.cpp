@@ -172,7 +172,7 @@ TEST(Simplify, NumbersOfVerticesHaveNoPartInIt) {
   for (Slice& slice : renumbered) {
     std::ranges::reverse(slice.contours);
     for (Contour& contour : slice.contours)
-      std::ranges::rotate(contour.points, contour.points.begin() + 5);
+      std::rotate(contour.points.begin(), contour.points.begin() + 5, contour.points.end());
   }
   for (const double tolerance : {0.0, 0.03})
     EXPECT_EQ(triangles::by_place(reconstruct(slices, {.simplify = tolerance}).surface),
