@@ -12,14 +12,13 @@ namespace loft {
 /// Stenger, 1975: no angle gets smaller than half the smallest one of its tile).
 ///
 /// Guarantees:
-/// - Contour edges stay, whole and unsplit, so slabs stay independent of one another. (Flat caps
-/// lie
-///   in a slice and are not part of a slab: they stay as they are.)
+/// - Contour edges stay, whole and unsplit, so slabs stay independent of one another. Flat caps lie
+///   in a slice, not in a slab: they stay as they are.
 /// - No inner edge is longer than `max_edge`, but next to longer contour edges, which bound the
 ///   tiles beside them: an inner edge that is still longer has a face with an edge at least as
 ///   long, and so on up to a contour edge. So no inner edge is longer than the longer of `max_edge`
-///   and the slab's longest contour edge. (Where rounding leaves no room for a valid split, an edge
-///   stays too: near the limits of the coordinates' precision only.)
+///   and the slab's longest contour edge. (Where rounding leaves no room for a valid split, beside
+///   slivers as thin as rounding, an edge stays too.)
 /// - As a set of points the surface is the same, up to the rounding of the new vertices; valid
 ///   tiles stay valid (exact test wherever a middle is rounded).
 /// - The result depends on the places of the vertices, not on their numbers.

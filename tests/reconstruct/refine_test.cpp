@@ -255,7 +255,7 @@ TEST(Refine, NumbersOfVerticesHaveNoPartInIt) {
   for (Slice& slice : renumbered) {
     std::ranges::reverse(slice.contours);
     for (Contour& contour : slice.contours)
-      std::ranges::rotate(contour.points, contour.points.begin() + 5);
+      std::rotate(contour.points.begin(), contour.points.begin() + 5, contour.points.end());
   }
   for (const Options& options : {Options{.max_edge = 0.2}, Options{.target_edge = 0.2}})
     EXPECT_EQ(triangles::by_place(reconstruct(slices, options).surface),

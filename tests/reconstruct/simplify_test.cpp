@@ -149,6 +149,21 @@ TEST(Simplify, NothingPassesThroughASmallPart) {
   for (const double tolerance : {0.1, 0.5, 2.0, 10.0}) (void)simplified(surface, tolerance);
 }
 
+TEST(Simplify, ADentedPartDoesNotTurnInsideOut) {
+  // The edge from c to e is between a and the line from b to d: a must not go through it.
+  Surface surface;
+  const auto a = surface.add_vertex({2, 0, 0});
+  const auto b = surface.add_vertex({0, 4, 0});
+  const auto c = surface.add_vertex({0.6, 0, -1.5});
+  const auto d = surface.add_vertex({0, -3, 0});
+  const auto e = surface.add_vertex({0.6, 0, 1.5});
+  for (const auto& [i, j, k] : {std::array{a, c, b}, std::array{a, d, c}, std::array{a, e, d},
+                                std::array{a, b, e}, std::array{b, c, e}, std::array{c, d, e}})
+    surface.add_face(i, j, k);
+  ASSERT_EQ(faults(surface), "");
+  EXPECT_GT(measure(to_mesh(simplified(surface, 100))).volume, 0);
+}
+
 TEST(Simplify, AnySolidStaysOne) {
   for (std::uint64_t seed = 0; seed < 60; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
@@ -172,7 +187,7 @@ TEST(Simplify, NumbersOfVerticesHaveNoPartInIt) {
   for (Slice& slice : renumbered) {
     std::ranges::reverse(slice.contours);
     for (Contour& contour : slice.contours)
-      std::ranges::rotate(contour.points, contour.points.begin() + 5);
+      std::rotate(contour.points.begin(), contour.points.begin() + 5, contour.points.end());
   }
   for (const double tolerance : {0.0, 0.03})
     EXPECT_EQ(triangles::by_place(reconstruct(slices, {.simplify = tolerance}).surface),

@@ -30,7 +30,8 @@ inline std::vector<std::array<Vec3, 3>> by_place(const Surface& surface) {
   std::vector<std::array<Vec3, 3>> result;
   for (const auto& [a, b, c] : mesh.faces) {
     result.push_back({mesh.points[a], mesh.points[b], mesh.points[c]});
-    std::ranges::rotate(result.back(), std::ranges::min_element(result.back()));
+    auto& corners = result.back();
+    std::rotate(corners.begin(), std::ranges::min_element(corners), corners.end());
   }
   std::ranges::sort(result);
   return result;
