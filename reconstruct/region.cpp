@@ -243,13 +243,16 @@ class Cleaning {
     std::size_t count = 0;
     for (const Ring& ring : rings_) count += contours_[ring.contour].points.size();
     mesh_.reserve(count);
+    std::vector<std::vector<Point>> parts;  // of contours that are not inserted as they are
+    parts.reserve(rings_.size());
+    std::vector<cdt::Polyline> lines;
     for (const Ring& ring : rings_) {
-      if (ring.numbers.empty()) {
-        mesh_.insert(contours_[ring.contour].points, cdt::closed);
-      } else {
-        mesh_.insert(points_of(ring), cdt::closed);
-      }
+      if (!ring.numbers.empty()) parts.push_back(points_of(ring));
+      lines.push_back({ring.numbers.empty() ? contours_[ring.contour].points
+                                            : std::span<const Point>(parts.back()),
+                       cdt::closed});
     }
+    mesh_.insert(lines);
     note_sources();
   }
 
