@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "reconstruct/linking.h"
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
 #include "reconstruct/tiles.h"
@@ -164,6 +165,12 @@ void report_unlinked(std::span<const Region> regions, std::span<const TileSet> s
                "there. Make the contours equal or more different"});
 }
 
+std::string in_lines(std::span<const std::string> problems) {
+  std::string text;
+  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+  return text;
+}
+
 class Reporter {
  public:
   Reporter(const Progress& progress, Stage stage, std::size_t steps)
@@ -194,14 +201,24 @@ std::vector<Region> clean_all(const std::vector<Layer>& layers, Fill fill,
   return regions;
 }
 
-std::vector<TileSet> tile_all(const std::vector<Region>& regions, const Progress& progress) {
-  const Reporter reporter(progress, Stage::tile, regions.size() - 1);
-  std::vector<TileSet> slabs;
-  for (std::size_t i = 0; i + 1 < regions.size(); ++i) {
-    slabs.push_back(tile(regions[i], regions[i + 1]));
-    reporter.report(slabs.size());
+void tile_all(Linking& linking, const Progress& progress) {
+  const Reporter reporter(progress, Stage::tile, linking.slab_count());
+  for (std::size_t i = 0; i < linking.slab_count(); ++i) {
+    linking.tile(i);
+    reporter.report(i + 1);
   }
-  return slabs;
+  for (std::size_t i = 0; i < linking.slab_count(); ++i) linking.match(i);
+  for (std::size_t i = 0; i < linking.slab_count(); ++i) linking.link(i);
+}
+
+void report_refused(std::span<const Slice> slices, std::span<const LinkOrder> orders,
+                    const Linking& linking, std::vector<Defect>& repairs) {
+  for (const Refusal& refusal : linking.refusals()) {
+    const LinkOrder& order = orders[refusal.order];
+    const ContourId& from = order.from;
+    repairs.push_back({DefectKind::refused_link, slices[from.slice].z, from.slice, from.contour,
+                       {}, {}, 0, describe(order, refusal)});
+  }
 }
 
 void check_enough(std::span<const Region> regions) {
@@ -225,18 +242,25 @@ void check_enough(std::span<const Region> regions) {
 
 }  // namespace
 
-Reconstruction reconstruct(std::span<const Slice> slices, const Options& options,
+Reconstruction reconstruct(std::span<const Slice> slices, const Options& all_options,
                            const Progress& progress) {
   if (auto fatal = find_not_finite(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  if (const auto problems = find_bad_orders(slices, all_options.links); !problems.empty())
+    throw InputError(in_lines(problems));
+  Options options = all_options;
+  options.links = orders_for(options.label, slices, options.links);
   Reconstruction result;
   const auto layers = find_layers(slices, options.label, result.repairs);
-  check_gaps(layers);
   check_gaps(layers);
   auto regions = trim(clean_all(layers, options.fill, result.repairs, progress), result.repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
-  const auto slabs = tile_all(regions, progress);
+  Linking linking(regions, options);
+  tile_all(linking, progress);
+  const std::vector<TileSet>& slabs = linking.tiles();
   report_unlinked(regions, slabs, result.repairs);
+  report_refused(slices, options.links, linking, result.repairs);
+  if (options.reports_slabs) result.slabs = report_slabs(regions, slabs, linking.pieces());
   const Reporter sewing(progress, Stage::sew, 1);
   result.surface = sew(regions, slabs, options.cap);
   sewing.report(1);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reconstruct/defect.h"
+#include "reconstruct/link_report.h"
 #include "reconstruct/options.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"
@@ -17,6 +18,7 @@ namespace loft {
 struct Reconstruction {
   Surface surface;
   std::vector<Defect> repairs;  ///< in the order of heights; none is fatal
+  std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
 };
 
 /// Thrown by reconstruct() when its Progress asked for it.

@@ -208,7 +208,11 @@ bool meet(const Region& lower, const Region& upper, const TileSet& tiles) {
   return is_found;
 }
 
-/// Both regions end half way: nothing of one slice is near anything of the other.
+/// That often a slab is sheared anew before its slices are left apart.
+constexpr int most_shears = 12;
+
+}  // namespace
+
 TileSet tile_apart(const Region& lower, const Region& upper) {
   Region nothing;
   nothing.z = lower.z + (upper.z - lower.z) / 2;
@@ -230,30 +234,32 @@ TileSet tile_apart(const Region& lower, const Region& upper) {
   return tiles;
 }
 
-/// That often a slab is sheared anew before its slices are left apart.
-constexpr int most_shears = 12;
-
-}  // namespace
-
 /// Where contours of both slices meet within rounding of each other, as three lines through one
 /// point may, the overlay can't be exact. Then the slab is sheared a little before it is tiled, in
 /// no special direction, and back again: a shear keeps tiles valid, and nothing meets by chance.
-TileSet tile(const Region& lower, const Region& upper) {
+std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, cdt::Point shift) {
   const Scale lengths = scale(lower, upper);
   const bool is_end = lower.is_empty() || upper.is_empty();  // nothing that could coincide
   for (int attempt = 0; attempt < most_shears; ++attempt) {
     const double turn = 2.399963 * attempt;  // the golden angle
     const double step = attempt * lengths.shear;
-    Slab slab(lower, upper, {step * std::cos(turn), step * std::sin(turn)});
+    Slab slab(lower, upper,
+              {shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)});
     if (!is_end && !slab.is_exact()) continue;
     const Lift lift(slab);
     Tiling tiling(slab, lift);
     TileSet tiles = tiling.run();
     if (is_end) return tiles;
-    const bool is_doubtful = attempt > 0 || tiling.is_forced() || slab.is_tight(lengths.tight);
+    const bool is_doubtful =
+        attempt > 0 || shift != cdt::Point() || tiling.is_forced() || slab.is_tight(lengths.tight);
     collapse_crossings(lower, upper, tiles);
     if (!is_doubtful || !meet(lower, upper, tiles)) return tiles;
   }
+  return std::nullopt;
+}
+
+TileSet tile(const Region& lower, const Region& upper) {
+  if (auto tiles = tile_moved(lower, upper, {})) return std::move(*tiles);
   return tile_apart(lower, upper);
 }
 

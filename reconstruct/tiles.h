@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -41,5 +42,14 @@ struct TileSet {
 /// edge of exactly one tile, unsplit; so slabs fit together whatever is on the other side.
 /// Cost: that of the CDT of both slices.
 [[nodiscard]] TileSet tile(const Region& lower, const Region& upper);
+
+/// The same with the upper region moved by `shift` while vertices are chosen to link: a shear of
+/// the slab, taken back afterwards, so that contour vertices are where they were and others move by
+/// their height's share of the shift (design, section 3, step 10). None if no valid tiles are found.
+[[nodiscard]] std::optional<TileSet> tile_moved(const Region& lower, const Region& upper,
+                                                cdt::Point shift);
+
+/// Nothing is linked: each region ends before half way, whatever is above or below it.
+[[nodiscard]] TileSet tile_apart(const Region& lower, const Region& upper);
 
 }  // namespace loft
