@@ -32,6 +32,7 @@ struct ReconstructCommand {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::filesystem::path> outputs;
   Options options;
+  std::optional<std::filesystem::path> links;  ///< file of link orders
   double metres_per_unit = 0.001;
   bool json = false;
   bool quiet = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/reconstruct.h"
 
+#include <array>
 #include <functional>
 #include <iostream>
 #include <map>
@@ -12,6 +13,7 @@
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
+#include "io/links_json.h"
 #include "io/slices.h"
 #include "io/surfaces.h"
 #include "reconstruct/measure.h"
@@ -68,6 +70,7 @@ class Follower {
 /// Finds out early what would make the work useless.
 void check_outputs(const ReconstructCommand& command) {
   forbid_overwriting(command.inputs, command.outputs);
+  if (command.links) forbid_overwriting(std::array{*command.links}, command.outputs);
   for (const path& output : command.outputs) io::check_writable(output);
 }
 
@@ -86,6 +89,7 @@ Result reconstruct_label(const std::vector<Slice>& stack, const Options& options
   result.report.vertices_of_kind = count_kinds(made.surface);
   if (is_measured) result.report.measures = measure(to_mesh(made.surface));
   result.report.repairs = std::move(made.repairs);
+  result.report.slabs = std::move(made.slabs);
   result.surface = std::move(made.surface);
   return result;
 }
@@ -109,7 +113,8 @@ std::string place_of(const ReconstructCommand& command, const Options& options) 
 
 /// All labels, or one InputError for all that cannot be reconstructed.
 std::vector<Result> reconstruct_all(const ReconstructCommand& command,
-                                    const std::vector<Slice>& stack, Terminal& terminal) {
+                                    const std::vector<Slice>& stack, const Options& all_options,
+                                    Terminal& terminal) {
   std::vector<std::string> names = labels(stack);
   if (names.empty()) names.emplace_back();
   const bool is_labelled = names.size() > 1 || !names[0].empty();
@@ -118,7 +123,7 @@ std::vector<Result> reconstruct_all(const ReconstructCommand& command,
   std::vector<Result> results;
   std::string problems;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    Options options = command.options;
+    Options options = all_options;
     if (is_labelled) options.label = names[i];
     Follower follower(terminal, names[i], share * static_cast<double>(i), share);
     try {
@@ -155,7 +160,8 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   options.metres_per_unit = command.metres_per_unit;
   // File names only: the same stack gives the same bytes wherever it lies.
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
-  options.settings = {{"fill", name(command.options.fill)}, {"cap", name(command.options.cap)}};
+  options.settings = {{"fill", name(command.options.fill)}, {"cap", name(command.options.cap)},
+                      {"link", name(command.options.link)}};
   return options;
 }
 
@@ -192,7 +198,10 @@ ExitCode run(const ReconstructCommand& command) {
   report.input.slices = stack.size();
   report.seconds["read"] = stopwatch.lap();
 
-  std::vector<Result> results = reconstruct_all(command, stack, terminal);
+  Options options = command.options;
+  if (command.links) options.links = io::read_links_json(*command.links, stack);
+  options.reports_slabs = command.json;
+  std::vector<Result> results = reconstruct_all(command, stack, options, terminal);
   for (const Result& result : results) warn(command, result.report, terminal);
   for (const Result& result : results) {
     for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;

@@ -10,6 +10,7 @@
 
 #include "app/commands.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/link_report.h"
 #include "reconstruct/measure.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"
@@ -35,6 +36,7 @@ struct PartReport {
   Measures measures;
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
   std::vector<Defect> repairs;
+  std::vector<SlabReport> slabs;
   std::map<std::string, double> seconds;  ///< of each stage: `clean`, `tile`, `sew`
 };
 
@@ -44,15 +46,25 @@ struct PartReport {
 ///
 ///     schema "loft-reconstruct", schema_version 1, loft (version)
 ///     inputs, outputs      file names
-///     options              fill, cap, metres_per_unit
+///     options              fill, cap, link, max_shift (null: by size), links (file or null),
+///                          metres_per_unit
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
 ///     seconds              of each stage: read, clean, tile, sew, write, total
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, seconds, vertices_of_kind (contour,
-///                          cleaning, crossing, steiner), repairs (a list)
+///                          cleaning, crossing, steiner), repairs (a list), slabs (a list)
 ///
 /// A repair: kind, slice (index in the input), z, contour, point, place [x, y] (null where not
-/// known), area (changed), message. Lengths in the unit of the input. Later versions of the schema
+/// known), area (changed), message.
+///
+/// A slab, from low to high: slices [lower, upper], z [lower, upper], sheet_area, wall_area, overlap,
+/// shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth, death), of
+/// (part or cavity), rule (overlap, slide, predicted, nearest, order; null for what begins or ends
+/// because nothing overlaps it), lower and upper: contours (a list of [slice, contour]) and place
+/// [x, y] (null if there are none); shift, overlap, confidence. reconstruct/link_report.h says what
+/// the numbers mean, reconstruct/pieces.h the rules.
+///
+/// Lengths in the unit of the input. Later versions of the schema
 /// may add keys.
 struct Report {
   StackSize input;
@@ -71,6 +83,7 @@ struct Report {
 
 [[nodiscard]] const char* name(Fill fill);
 [[nodiscard]] const char* name(Cap cap);
+[[nodiscard]] const char* name(LinkRule rule);
 [[nodiscard]] const char* name(Stage stage);
 
 }  // namespace loft::app

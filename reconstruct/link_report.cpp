@@ -54,7 +54,7 @@ LinkReport report(const Region& lower, const Region& upper, const Piece& piece,
   if (piece.is_end()) return link;
   link.shift = std::hypot(piece.shift.x, piece.shift.y);
   link.overlap = overlap(piece, difference);
-  const double size = radius(std::min(piece.lower.area, piece.upper.area));
+  const double size = std::min(piece.lower.radius, piece.upper.radius);
   if (size > 0) link.confidence = link.overlap * size / (size + link.shift);
   return link;
 }

@@ -32,7 +32,7 @@ struct LinkReport {
   cdt::Point upper_place;
   double shift = 0;       ///< how far the upper contours were moved to be tiled over the lower ones
   double overlap = 0;     ///< area in both slices by area in either, after that; 0 for an end
-  double confidence = 0;  ///< overlap * r / (r + shift); r: radius of the smaller side's area
+  double confidence = 0;  ///< overlap * r / (r + shift); r: the smaller radius
 };
 
 /// How sure the surface is between two slices.

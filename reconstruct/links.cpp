@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace loft {
@@ -78,13 +77,11 @@ std::optional<Moved> move(const Region& lower, const Region& upper, Piece piece)
 Point offset(const Piece& piece) {
   const Point way = difference(piece.lower.centroid, piece.upper.centroid);
   const double longest = std::max({std::abs(way.x), std::abs(way.y),
-                                   radius(std::min(piece.lower.area, piece.upper.area))});
+                                   std::min(piece.lower.radius, piece.upper.radius)});
   if (!(longest > 0)) return {};
   const double unit = std::ldexp(1.0, std::ilogb(longest) - 20);
   return {std::round(way.x / unit) * unit, std::round(way.y / unit) * unit};
 }
-
-double radius(double area) { return std::sqrt(area / std::numbers::pi); }
 
 /// With areas A and B: both cover (A + B - difference) / 2, together (A + B + difference) / 2.
 double overlap(const Piece& piece, double difference) {
@@ -100,7 +97,7 @@ void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pie
     if (piece.lower.parts != 1 || piece.upper.parts != 1) continue;
     if (piece.reason != LinkReason::overlap) continue;
     const double way = length(offset(piece));
-    const double size = radius(std::min(piece.lower.area, piece.upper.area));
+    const double size = std::min(piece.lower.radius, piece.upper.radius);
     if (way > least_slide * size && way <= max_shift.value_or(way)) movable.push_back(i);
   }
   if (movable.empty()) return;
@@ -153,7 +150,7 @@ class Matching {
       const bool is_lower = piece.upper.is_empty();
       const Footprint& footprint = is_lower ? piece.lower : piece.upper;
       if (footprint.parts != 1 || !(footprint.area > 0)) continue;
-      (is_lower ? lower_ : upper_).push_back({i, &footprint, piece.is_solid, radius(footprint.area)});
+      (is_lower ? lower_ : upper_).push_back({i, &footprint, piece.is_solid, footprint.radius});
     }
   }
 

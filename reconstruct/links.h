@@ -11,8 +11,7 @@
 namespace loft {
 
 /// Correspondence beyond overlap (design, section 3, step 10): parts that move sideways between
-/// two slices, by a good deal of their width or by more. The sizes below are radii: of the circle
-/// with the same area.
+/// two slices, by a good deal of their width or by more. Sizes are Footprint::radius.
 
 /// From the centroid of a piece's upper footprint to that of its lower one, rounded to a millionth:
 /// points moved by it lose little, and it does not depend on the order of sums.
@@ -64,8 +63,5 @@ void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces&
 
 /// The share of what two footprints cover together that both cover, by the area between them.
 [[nodiscard]] double overlap(const Piece& piece, double difference);
-
-/// The radius of the circle with that area.
-[[nodiscard]] double radius(double area);
 
 }  // namespace loft

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
@@ -149,8 +150,14 @@ bool measure(const Region& region, Footprint& footprint) {
   }
   const bool is_solid = sum.area > 0;
   footprint.area = std::abs(sum.area);
-  footprint.parts = static_cast<std::uint32_t>(
-      std::ranges::count_if(areas, [&](double area) { return (area > 0) == is_solid; }));
+  footprint.parts = 0;
+  double outer = 0;
+  for (const double area : areas) {
+    if ((area > 0) != is_solid) continue;
+    ++footprint.parts;
+    outer += std::abs(area);
+  }
+  footprint.radius = std::sqrt(outer / std::numbers::pi);
   footprint.centroid = origin;
   if (sum.area != 0)
     footprint.centroid = {origin.x + sum.first.x / sum.area, origin.y + sum.first.y / sum.area};

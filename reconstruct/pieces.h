@@ -24,6 +24,7 @@ struct Footprint {
   std::vector<std::uint32_t> loops;  ///< of the slice's region, by their smallest points
   std::uint32_t parts = 0;           ///< how many of the loops are outer ones; the rest are holes
   double area = 0;                   ///< enclosed
+  double radius = 0;                 ///< of the circle with the area that the outer loops enclose
   cdt::Point centroid;               ///< of that area
 
   [[nodiscard]] bool is_empty() const { return loops.empty(); }
