@@ -57,12 +57,12 @@ struct PartReport {
 /// A repair: kind, slice (index in the input), z, contour, point, place [x, y] (null where not
 /// known), area (changed), message.
 ///
-/// A slab, from low to high: slices [lower, upper], z [lower, upper], sheet_area, wall_area, overlap,
-/// shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth, death), of
-/// (part or cavity), rule (overlap, slide, predicted, nearest, order; null for what begins or ends
-/// because nothing overlaps it), lower and upper: contours (a list of [slice, contour]) and place
-/// [x, y] (null if there are none); shift, overlap, confidence. reconstruct/link_report.h says what
-/// the numbers mean, reconstruct/pieces.h the rules.
+/// A slab, from low to high: slices [lower, upper], z [lower, upper], sheet_area, wall_area,
+/// overlap, shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth,
+/// death), of (part or cavity), rule (overlap, slide, predicted, nearest, order; null for what
+/// begins or ends as nothing overlaps it), lower and upper: contours (a list of [slice, contour])
+/// and place [x, y] (null if there are none); shift, overlap, confidence. reconstruct/link_report.h
+/// says what the numbers mean, reconstruct/pieces.h the rules.
 ///
 /// Lengths in the unit of the input. Later versions of the schema
 /// may add keys.

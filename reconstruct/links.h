@@ -54,10 +54,11 @@ struct EndLink {
                                               std::optional<double> max_shift,
                                               std::span<const EndLink> forbidden);
 
-/// Tiles matched ends as one piece each, the upper part moved over the lower one; where these tiles
-/// meet nothing else (exact test), they take the place of the two ends. Matches of parts that cover,
-/// one moved over the other, less than 0.4 of what they cover together are left out, unless an order
-/// asks for them.
+/// Tiles matched ends as one piece each, the upper part moved over the lower one. If they then
+/// cover less than 0.4 of what they cover together, and one is hollow, as where a shell closes, its
+/// outlines are joined and its holes by themselves, or the holes end. If that makes too little of
+/// an overlap, too, the match is left out, unless an order asks for it. Where these tiles meet
+/// nothing else (exact test), they take the place of the two ends.
 void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
                std::span<const EndLink> links);
 

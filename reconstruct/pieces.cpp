@@ -384,11 +384,12 @@ class Replacing {
     drop_unused_inner();
     for (std::uint32_t r = 0; r < replacements_.size(); ++r) {
       if (!is_kept_[r]) continue;
-      Replacement& replacement = replacements_[r];
+      const Replacement& replacement = replacements_[r];
       append(tiles_, replacement.tiles, contour_count_);
-      pieces_.of_tile.resize(tiles_.tiles.size(),
-                             static_cast<std::uint32_t>(pieces_.pieces.size()));
-      pieces_.pieces.push_back(std::move(replacement.piece));
+      const auto count = static_cast<std::uint32_t>(pieces_.pieces.size());
+      for (const std::uint32_t piece : replacement.pieces.of_tile)
+        pieces_.of_tile.push_back(count + piece);
+      for (const Piece& piece : replacement.pieces.pieces) pieces_.pieces.push_back(piece);
     }
     drop_replaced_pieces();
   }

@@ -90,7 +90,7 @@ class Extract {
 /// Tiles to put in the place of whole pieces.
 struct Replacement {
   TileSet tiles;
-  Piece piece;                          ///< what they make
+  Pieces pieces;                        ///< what they make
   std::vector<std::uint32_t> replaced;  ///< the pieces that go
 };
 

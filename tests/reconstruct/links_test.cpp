@@ -188,6 +188,21 @@ TEST(Links, ATreeOfSlantedBranchesIsOnePiece) {
   EXPECT_LT(measures(plain).volume / expected, 0.9);
 }
 
+TEST(Links, AShellClosesAsOutlinesAndHoles) {
+  // Discs below and above, of which none overlaps the next.
+  const std::vector<Slice> slices{{0, {stacks::circle(30, 2)}},
+                                  {1, {stacks::circle(40, 4), stacks::circle(30, 2.5)}},
+                                  {2, {stacks::circle(40, 4), stacks::circle(30, 2.5)}},
+                                  {3, {stacks::circle(30, 2)}}};
+  const Reconstruction made = solid(slices);
+  EXPECT_EQ(count(made), (Counts{{"birth predicted", 1},
+                                 {"death predicted", 1},
+                                 {"link overlap", 2},
+                                 {"link predicted", 2}}));
+  EXPECT_EQ(measures(made).components, 2U);
+  EXPECT_EQ(measures(made).genus, 0);
+}
+
 TEST(Links, RoundEndsSideBySideAreNotLinked) {
   // A ball that ends where another one begins beside it, cut at any height.
   for (double offset = 0; offset < 1; offset += 0.125) {
