@@ -190,15 +190,15 @@ TEST(Links, ATreeOfSlantedBranchesIsOnePiece) {
 
 TEST(Links, AShellClosesAsOutlinesAndHoles) {
   // Discs below and above, of which none overlaps the next.
-  const std::vector<Slice> slices{{0, {stacks::circle(30, 2)}},
-                                  {1, {stacks::circle(40, 4), stacks::circle(30, 2.5)}},
-                                  {2, {stacks::circle(40, 4), stacks::circle(30, 2.5)}},
-                                  {3, {stacks::circle(30, 2)}}};
+  const std::vector<Slice> slices{{0, {stacks::circle(30, 2.4)}},
+                                  {1, {stacks::circle(40, 3.4), stacks::circle(30, 2.5)}},
+                                  {2, {stacks::circle(40, 3.4), stacks::circle(30, 2.5)}},
+                                  {3, {stacks::circle(30, 2.4)}}};
   const Reconstruction made = solid(slices);
-  EXPECT_EQ(count(made), (Counts{{"birth predicted", 1},
-                                 {"death predicted", 1},
-                                 {"link overlap", 2},
-                                 {"link predicted", 2}}));
+  EXPECT_EQ(count(made), (Counts{{"birth nearest", 1},
+                                 {"death nearest", 1},
+                                 {"link nearest", 2},
+                                 {"link overlap", 2}}));
   EXPECT_EQ(measures(made).components, 2U);
   EXPECT_EQ(measures(made).genus, 0);
 }
