@@ -160,7 +160,8 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   options.metres_per_unit = command.metres_per_unit;
   // File names only: the same stack gives the same bytes wherever it lies.
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
-  options.settings = {{"fill", name(command.options.fill)}, {"cap", name(command.options.cap)},
+  options.settings = {{"fill", name(command.options.fill)},
+                      {"cap", name(command.options.cap)},
                       {"link", name(command.options.link)}};
   return options;
 }

@@ -169,12 +169,13 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
   json["loft"] = io::version();
   json["inputs"] = names(command.inputs);
   json["outputs"] = names(command.outputs);
-  json["options"] = {{"fill", name(command.options.fill)},
-                     {"cap", name(command.options.cap)},
-                     {"link", name(command.options.link)},
-                     {"max_shift", command.options.max_shift ? Json(*command.options.max_shift) : Json()},
-                     {"links", command.links ? Json(command.links->string()) : Json()},
-                     {"metres_per_unit", command.metres_per_unit}};
+  json["options"] = {
+      {"fill", name(command.options.fill)},
+      {"cap", name(command.options.cap)},
+      {"link", name(command.options.link)},
+      {"max_shift", command.options.max_shift ? Json(*command.options.max_shift) : Json()},
+      {"links", command.links ? Json(command.links->string()) : Json()},
+      {"metres_per_unit", command.metres_per_unit}};
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;

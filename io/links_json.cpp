@@ -172,8 +172,7 @@ std::vector<LinkOrder> read_links_json(std::istream& in, std::string_view name,
 
 std::vector<LinkOrder> read_links_json(const std::filesystem::path& path,
                                        std::span<const Slice> slices) {
-  if (std::filesystem::is_directory(path))
-    throw FileError(Access::read, path, "it is a folder");
+  if (std::filesystem::is_directory(path)) throw FileError(Access::read, path, "it is a folder");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(Access::read, path, last_cause());
   return read_links_json(file, path.string(), slices);

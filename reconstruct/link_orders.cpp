@@ -71,10 +71,10 @@ std::vector<std::string> find_bad_orders(std::span<const Slice> slices,
           order, both + " have different labels, '" + from.label + "' and '" + to.label + "'"));
     const auto [other, is_new] = seen.try_emplace(std::minmax(order.from, order.to), &order);
     if (!is_new && other->second->is_link != order.is_link)
-      problems.push_back(
-          with_place(order, both + " are to be linked and not to be linked" +
-                                (other->second->place.empty() ? std::string()
-                                                              : ", see " + other->second->place)));
+      problems.push_back(with_place(
+          order,
+          both + " are to be linked and not to be linked" +
+              (other->second->place.empty() ? std::string() : ", see " + other->second->place)));
   }
   return problems;
 }
@@ -213,9 +213,7 @@ class Ordering {
   [[nodiscard]] std::uint32_t upper_node(std::uint32_t part) const {
     return graph_.lower_count + part;
   }
-  [[nodiscard]] std::uint32_t node_count() const {
-    return graph_.lower_count + graph_.upper_count;
-  }
+  [[nodiscard]] std::uint32_t node_count() const { return graph_.lower_count + graph_.upper_count; }
   [[nodiscard]] std::vector<PartGraph::Overlap> pairs(const SlabOrder& order) const {
     std::vector<PartGraph::Overlap> found;
     for (const std::uint32_t a : order.lower) {
@@ -228,8 +226,7 @@ class Ordering {
   }
 
   /// The set of each node, known by its smallest, if edges join nodes.
-  [[nodiscard]] std::vector<std::uint32_t> sets(
-      const std::set<PartGraph::Overlap>& edges) const {
+  [[nodiscard]] std::vector<std::uint32_t> sets(const std::set<PartGraph::Overlap>& edges) const {
     std::vector<std::uint32_t> parent(node_count());
     std::iota(parent.begin(), parent.end(), 0);
     const auto root = [&parent](std::uint32_t i) {
@@ -345,8 +342,7 @@ class Ordering {
   }
 
   /// Whether all outer loops are joined.
-  [[nodiscard]] static bool is_one(const Region& lower, const Region& upper,
-                                   const TileSet& tiles) {
+  [[nodiscard]] static bool is_one(const Region& lower, const Region& upper, const TileSet& tiles) {
     const Pieces pieces = find_pieces(lower, upper, tiles);
     return std::ranges::count_if(pieces.pieces, &Piece::is_solid) == 1;
   }
@@ -425,8 +421,7 @@ class Ordering {
       const EndLink ends{piece_of(Level::lower, order.lower), piece_of(Level::upper, order.upper),
                          LinkReason::order};
       const bool are_ends = pieces[ends.lower].is_end() && pieces[ends.upper].is_end();
-      const bool is_of_holes =
-          std::ranges::find(hole_orders_, &order) != hole_orders_.end();
+      const bool is_of_holes = std::ranges::find(hole_orders_, &order) != hole_orders_.end();
       if (are_ends && !order.is_link) result_.forbidden.push_back(ends);
       if (!is_of_holes || (ends.lower == ends.upper) == order.is_link) continue;
       if (are_ends && order.is_link) {

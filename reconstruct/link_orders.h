@@ -36,17 +36,17 @@ struct Refusal {
 /// `links.ndjson:3: not linked with slice 4 contour 2: its tiles would meet ...`
 [[nodiscard]] std::string describe(const LinkOrder& order, const Refusal& refusal);
 
-/// The orders for contours with that label; all where it is not set. Precondition: find_bad_orders()
-/// finds nothing.
+/// The orders for contours with that label; all where it is not set. Precondition:
+/// find_bad_orders() finds nothing.
 [[nodiscard]] std::vector<LinkOrder> orders_for(const std::optional<std::string>& label,
                                                 std::span<const Slice> slices,
                                                 std::span<const LinkOrder> orders);
 
 /// Sorts orders out among the slabs between `regions`. Those whose contours cleaning has left
 /// nothing of are refused; those with contours of none of the regions' slices are left out.
-[[nodiscard]] std::vector<std::vector<SlabOrder>> orders_of_slabs(
-    std::span<const Region> regions, std::span<const LinkOrder> orders,
-    std::vector<Refusal>& refusals);
+[[nodiscard]] std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regions,
+                                                                  std::span<const LinkOrder> orders,
+                                                                  std::vector<Refusal>& refusals);
 
 /// The tiles of a slab as its own two slices and orders have them.
 struct OrderedTiles {

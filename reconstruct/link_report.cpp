@@ -41,8 +41,7 @@ std::vector<ContourId> contours(const Region& region, const Footprint& footprint
   return found;
 }
 
-LinkReport report(const Region& lower, const Region& upper, const Piece& piece,
-                  double difference) {
+LinkReport report(const Region& lower, const Region& upper, const Piece& piece, double difference) {
   LinkReport link;
   link.kind = kind(piece);
   link.is_solid = piece.is_solid;

@@ -45,7 +45,8 @@ struct SlabReport {
   double wall_area = 0;   ///< of the tiles upright on contours, where both slices agree
   double overlap = 0;     ///< area inside both slices by area inside either, after shifts
   double shift = 0;       ///< the farthest
-  double confidence = 0;  ///< mean of the links', by the area of their tiles: 1 extrusion, 0 ends only
+  double confidence =
+      0;  ///< mean of the links', by the area of their tiles: 1 extrusion, 0 ends only
   std::vector<LinkReport> links;
 };
 

@@ -35,8 +35,8 @@ void Linking::match(std::size_t slab) {
   links_[slab] = wanted_[slab];
   if (options_.link != LinkRule::automatic) return;
   const SlabPieces below = slab == 0 ? SlabPieces() : view(slab - 1);
-  for (const EndLink& link : match_ends(below, view(slab), view(slab + 1), options_.max_shift,
-                                        forbidden_[slab])) {
+  for (const EndLink& link :
+       match_ends(below, view(slab), view(slab + 1), options_.max_shift, forbidden_[slab])) {
     const bool is_free = std::ranges::none_of(wanted_[slab], [&](const EndLink& wanted) {
       return wanted.lower == link.lower || wanted.upper == link.upper;
     });
@@ -66,9 +66,9 @@ void Linking::link(std::size_t slab) {
     const bool is_refused =
         std::ranges::find(refusals_[slab], order.order, &Refusal::order) != refusals_[slab].end();
     if (is_refused || are_linked(pieces_[slab], order) == order.is_link) continue;
-    refusals_[slab].push_back(
-        {order.order, order.is_link ? "its tiles would meet others between the slices"
-                                    : "both are linked with another part in common"});
+    refusals_[slab].push_back({order.order, order.is_link
+                                                ? "its tiles would meet others between the slices"
+                                                : "both are linked with another part in common"});
   }
 }
 

@@ -37,7 +37,7 @@ class Linking {
 
   std::span<const Region> regions_;
   const Options& options_;
-  std::vector<Refusal> early_refusals_;  // of contours that are gone
+  std::vector<Refusal> early_refusals_;         // of contours that are gone
   std::vector<std::vector<SlabOrder>> orders_;  // of each slab
   std::vector<TileSet> tiles_;
   std::vector<Pieces> pieces_;
@@ -45,6 +45,6 @@ class Linking {
   std::vector<std::vector<EndLink>> forbidden_;
   std::vector<std::vector<EndLink>> links_;
   std::vector<std::vector<Refusal>> refusals_;
-  };
+};
 
 }  // namespace loft

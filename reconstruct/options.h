@@ -51,8 +51,8 @@ struct Options {
   /// Only contours with this label; all contours where not set.
   std::optional<std::string> label = {};
   LinkRule link = LinkRule::automatic;
-  /// The farthest that LinkRule::automatic moves a part sideways from slice to slice, in the unit of
-  /// the input; by the parts' size where not set (links.h). LinkOrders may ask for more.
+  /// The farthest that LinkRule::automatic moves a part sideways from slice to slice, in the unit
+  /// of the input; by the parts' size where not set (links.h). LinkOrders may ask for more.
   std::optional<double> max_shift = {};
   /// Orders that cannot be met are reported among the repairs; the slab is then as without them.
   std::vector<LinkOrder> links = {};

@@ -58,8 +58,7 @@ class PartFinder {
         if (slab_.level(passage.segment()) != level) continue;
         const auto loop = std::ranges::upper_bound(region.loop_starts, segment - first) -
                           region.loop_starts.begin() - 1;
-        part_of_loop[static_cast<std::size_t>(loop)] =
-            label_[Triangulation::triangle(e).index()];
+        part_of_loop[static_cast<std::size_t>(loop)] = label_[Triangulation::triangle(e).index()];
       }
     }
     return count;

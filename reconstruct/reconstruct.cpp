@@ -216,8 +216,14 @@ void report_refused(std::span<const Slice> slices, std::span<const LinkOrder> or
   for (const Refusal& refusal : linking.refusals()) {
     const LinkOrder& order = orders[refusal.order];
     const ContourId& from = order.from;
-    repairs.push_back({DefectKind::refused_link, slices[from.slice].z, from.slice, from.contour,
-                       {}, {}, 0, describe(order, refusal)});
+    repairs.push_back({DefectKind::refused_link,
+                       slices[from.slice].z,
+                       from.slice,
+                       from.contour,
+                       {},
+                       {},
+                       0,
+                       describe(order, refusal)});
   }
 }
 

@@ -17,7 +17,7 @@ namespace loft {
 /// A surface and what was found and repaired on the way to it.
 struct Reconstruction {
   Surface surface;
-  std::vector<Defect> repairs;  ///< in the order of heights; none is fatal
+  std::vector<Defect> repairs;    ///< in the order of heights; none is fatal
   std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
 };
 

@@ -243,8 +243,7 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, cdt:
   for (int attempt = 0; attempt < most_shears; ++attempt) {
     const double turn = 2.399963 * attempt;  // the golden angle
     const double step = attempt * lengths.shear;
-    Slab slab(lower, upper,
-              {shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)});
+    Slab slab(lower, upper, {shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)});
     if (!is_end && !slab.is_exact()) continue;
     const Lift lift(slab);
     Tiling tiling(slab, lift);

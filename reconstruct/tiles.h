@@ -45,7 +45,8 @@ struct TileSet {
 
 /// The same with the upper region moved by `shift` while vertices are chosen to link: a shear of
 /// the slab, taken back afterwards, so that contour vertices are where they were and others move by
-/// their height's share of the shift (design, section 3, step 10). None if no valid tiles are found.
+/// their height's share of the shift (design, section 3, step 10). None if no valid tiles are
+/// found.
 [[nodiscard]] std::optional<TileSet> tile_moved(const Region& lower, const Region& upper,
                                                 cdt::Point shift);
 

@@ -195,10 +195,10 @@ TEST(Links, AShellClosesAsOutlinesAndHoles) {
                                   {2, {stacks::circle(40, 3.4), stacks::circle(30, 2.5)}},
                                   {3, {stacks::circle(30, 2.4)}}};
   const Reconstruction made = solid(slices);
-  EXPECT_EQ(count(made), (Counts{{"birth nearest", 1},
-                                 {"death nearest", 1},
-                                 {"link nearest", 2},
-                                 {"link overlap", 2}}));
+  EXPECT_EQ(
+      count(made),
+      (Counts{
+          {"birth nearest", 1}, {"death nearest", 1}, {"link nearest", 2}, {"link overlap", 2}}));
   EXPECT_EQ(measures(made).components, 2U);
   EXPECT_EQ(measures(made).genus, 0);
 }
