@@ -132,7 +132,7 @@ namespace {
 /// How a part moves and grows towards a slab, as far as the slab beside it tells.
 struct Trend {
   Point velocity;  // of the centroid, towards the slab at hand, by height
-  double area;     // in the slice before
+  double radius;   // in the slice before
   double gap;      // to that slice
 };
 
@@ -143,6 +143,7 @@ struct End {
   bool is_solid;
   double radius;
   std::optional<Trend> trend = {};
+  bool is_speck = false;  // in the slab beside it ends, too
 };
 
 /// The matching of one slab's ends.
@@ -212,25 +213,26 @@ class Matching {
     for (End& end : ends) {
       const std::uint32_t loop = end.footprint->loops.front();
       const Piece* piece = loop < of_loop.size() ? of_loop[loop] : nullptr;
-      if (piece == nullptr || piece->footprint(level).loops != end.footprint->loops) continue;
+      if (piece == nullptr || piece->footprint(level).parts != 1) continue;
       const Footprint* far = &piece->footprint(other(level));
       if (far->is_empty()) {
         const auto match = std::ranges::find_if(matches, [&](const EndLink& link) {
           return &pieces[level == Level::lower ? link.lower : link.upper] == piece;
         });
-        if (match == matches.end()) continue;
+        end.is_speck = match == matches.end();
+        if (end.is_speck) continue;
         far = &pieces[level == Level::lower ? match->upper : match->lower].footprint(other(level));
       }
       if (far->parts != 1) continue;
-      const Point way = difference(end.footprint->centroid, far->centroid);
-      end.trend = {{way.x / beside.gap, way.y / beside.gap}, far->area, beside.gap};
+      const Point way = difference(piece->footprint(level).centroid, far->centroid);
+      end.trend = {{way.x / beside.gap, way.y / beside.gap}, far->radius, beside.gap};
     }
   }
 
   /// Whether a part shrinks as fast as one that ends in this slab.
   [[nodiscard]] bool is_closing(const End& end) const {
-    return end.trend &&
-           end.footprint->area * (end.trend->gap + slab_.gap) <= end.trend->area * slab_.gap;
+    return end.trend && end.radius * end.radius * (end.trend->gap + slab_.gap) <=
+                            end.trend->radius * end.trend->radius * slab_.gap;
   }
 
   void find_pairs() {
@@ -261,7 +263,7 @@ class Matching {
     if (max_shift_ && shift > *max_shift_) return;
     const double unlikeness = 1 - likeness;
     if (!a.trend && !b.trend) {
-      if (shift <= farthest_near * sizes)
+      if (!a.is_speck && !b.is_speck && shift <= farthest_near * sizes)
         pairs_.push_back({shift / sizes + unlikeness, i, j, LinkReason::nearest});
       return;
     }

@@ -195,10 +195,10 @@ TEST(Links, AShellClosesAsOutlinesAndHoles) {
                                   {2, {stacks::circle(40, 3.4), stacks::circle(30, 2.5)}},
                                   {3, {stacks::circle(30, 2.4)}}};
   const Reconstruction made = solid(slices);
-  EXPECT_EQ(
-      count(made),
-      (Counts{
-          {"birth nearest", 1}, {"death nearest", 1}, {"link nearest", 2}, {"link overlap", 2}}));
+  EXPECT_EQ(count(made), (Counts{{"birth predicted", 1},
+                                 {"death predicted", 1},
+                                 {"link predicted", 2},
+                                 {"link overlap", 2}}));
   EXPECT_EQ(measures(made).components, 2U);
   EXPECT_EQ(measures(made).genus, 0);
 }
@@ -224,6 +224,17 @@ TEST(Links, AStraightRodAndAnotherBesideItAreNotLinked) {
   for (int i = 0; i < 8; ++i)
     slices.push_back({double(i), {stacks::circle(30, 1, {i < 4 ? 0.0 : 2.5, 0})}});
   EXPECT_EQ(measures(solid(slices)).components, 2U);
+}
+
+TEST(Links, SpecksAreNotLinked) {
+  // In every slice one that is nowhere near the next but one.
+  std::vector<Slice> slices;
+  for (int i = 0; i < 6; ++i)
+    slices.push_back({double(i), {stacks::circle(30, 9), stacks::circle(8, 0.5, {12, 0})}});
+  for (const int i : {0, 1, 4, 5}) slices[std::size_t(i)].contours.pop_back();
+  for (cdt::Point& p : slices[2].contours[1].points) p.y += 1.7;
+  EXPECT_EQ(count(solid(slices)),
+            (Counts{{"birth overlap", 2}, {"death overlap", 2}, {"link overlap", 5}}));
 }
 
 TEST(Links, NothingMovesFartherThanAllowed) {
