@@ -35,6 +35,7 @@ struct ReconstructCommand {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::filesystem::path> outputs;
   Options options;
+  std::optional<std::filesystem::path> links;  ///< file of link orders
   double metres_per_unit = 0.001;
   Memory memory = Memory::by_size;
   bool json = false;

@@ -148,6 +148,26 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                          "Read the stack as a whole, whatever its size")
       ->excludes(out);
   sub->add_option_function<std::string>(
+         "--link",
+         [&command](const std::string& link) {
+           command.options.link = link == "auto"      ? loft::LinkRule::automatic
+                                  : link == "overlap" ? loft::LinkRule::overlap
+                                                      : loft::LinkRule::none;
+         },
+         "Which parts of neighbouring slices are joined: those that overlap, and those that belong "
+         "together by where they lie (auto, default); those that overlap; none, but for --links")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"auto", "overlap", "none"}));
+  sub->add_option("--max-shift", command.options.max_shift,
+                  "The farthest that --link auto moves a part sideways between two slices, in the "
+                  "unit of the input; by the parts' size where not given")
+      ->type_name("DISTANCE")
+      ->check(CLI::Range(0.0, loft::cdt::Triangulation::largest_coordinate));
+  sub->add_option("--links", command.links,
+                  "Contours to join or to keep apart: a line {\"from\": [slice, contour], "
+                  "\"to\": [slice, contour], \"link\": true or false} each")
+      ->type_name("FILE");
+  sub->add_option_function<std::string>(
          "--unit",
          [&command](const std::string& unit) { command.metres_per_unit = *metres_per_unit(unit); },
          "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))

@@ -83,9 +83,11 @@ bool is_out_of_core(const ReconstructCommand& command) {
     throw UsageError("--out-of-core writes one PLY file; give one output OUT.ply");
   if (command.memory == Memory::out_of_core && command.options.simplify)
     throw UsageError("--simplify needs the whole surface in memory; leave out --out-of-core");
+  if (command.memory == Memory::out_of_core && command.links)
+    throw UsageError("--links needs the whole stack in memory; leave out --out-of-core");
   if (command.memory != Memory::by_size) return command.memory == Memory::out_of_core;
   const bool reads_files = std::ranges::find(command.inputs, path("-")) == command.inputs.end();
-  return is_one_ply(command) && !command.options.simplify && reads_files && input_size(command) > most_in_memory;
+  return is_one_ply(command) && !command.options.simplify && !command.links && reads_files && input_size(command) > most_in_memory;
 }
 
 void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report) {

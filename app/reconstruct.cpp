@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/reconstruct.h"
 
+#include <array>
 #include <functional>
 #include <iostream>
 #include <list>
@@ -15,6 +16,7 @@
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
+#include "io/links_json.h"
 #include "io/slices.h"
 #include "io/surfaces.h"
 #include "reconstruct/measure.h"
@@ -77,6 +79,7 @@ class Follower {
 /// Finds out early what would make the work useless.
 void check_outputs(const ReconstructCommand& command) {
   forbid_overwriting(command.inputs, command.outputs);
+  if (command.links) forbid_overwriting(std::array{*command.links}, command.outputs);
   for (const path& output : command.outputs) io::check_writable(output);
 }
 
@@ -89,6 +92,7 @@ struct Result {
     report.seconds = follower.finish();
     report.vertices_of_kind = count_kinds(made.surface);
     report.repairs = std::move(made.repairs);
+    report.slabs = std::move(made.slabs);
   }
 
   Reconstruction made;
@@ -97,7 +101,8 @@ struct Result {
 
 /// All labels, or one InputError for all that cannot be reconstructed.
 std::list<Result> reconstruct_all(const ReconstructCommand& command,
-                                  const std::vector<Slice>& stack, Terminal& terminal) {
+                                  const std::vector<Slice>& stack, const Options& all_options,
+                                  Terminal& terminal) {
   std::vector<std::string> names = labels(stack);
   if (names.empty()) names.emplace_back();
   const bool is_labelled = names.size() > 1 || !names[0].empty();
@@ -106,7 +111,7 @@ std::list<Result> reconstruct_all(const ReconstructCommand& command,
   std::list<Result> results;
   std::string problems;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    Options options = command.options;
+    Options options = all_options;
     if (is_labelled) options.label = names[i];
     Follower follower(terminal, names[i], share * static_cast<double>(i), share);
     try {
@@ -144,7 +149,9 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   options.metres_per_unit = command.metres_per_unit;
   // File names only: the same stack gives the same bytes wherever it lies.
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
-  options.settings = {{"fill", name(command.options.fill)}, {"cap", name(command.options.cap)}};
+  options.settings = {{"fill", name(command.options.fill)},
+                      {"cap", name(command.options.cap)},
+                      {"link", name(command.options.link)}};
   if (command.options.smooth) options.settings["smooth"] = "true";
   for (const auto& [setting, length] : lengths(command.options))
     options.settings[setting] = exact(length);
@@ -176,7 +183,10 @@ void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report
   report.input.slices = stack.size();
   report.seconds["read"] = stopwatch.lap();
 
-  std::list<Result> results = reconstruct_all(command, stack, terminal);
+  Options options = command.options;
+  if (command.links) options.links = io::read_links_json(*command.links, stack);
+  options.reports_slabs = command.json;
+  std::list<Result> results = reconstruct_all(command, stack, options, terminal);
   stopwatch.lap();
   write_all(command, results);
   report.seconds["write"] = stopwatch.lap();

@@ -90,6 +90,18 @@ const char* name(Cap cap) {
   return "open";
 }
 
+const char* name(LinkRule rule) {
+  switch (rule) {
+    case LinkRule::automatic:
+      return "auto";
+    case LinkRule::overlap:
+      return "overlap";
+    case LinkRule::none:
+      break;
+  }
+  return "none";
+}
+
 const char* name(Stage stage) {
   switch (stage) {
     case Stage::clean:
@@ -133,6 +145,46 @@ Json to_json(const CleaningSummary& summary) {
   return json;
 }
 
+Json slice_index(std::uint32_t slice) { return slice == Origin::none ? Json() : Json(slice); }
+
+Json side(const std::vector<ContourId>& contours, cdt::Point place) {
+  Json json;
+  json["contours"] = Json::array();
+  for (const auto& [slice, contour] : contours)
+    json["contours"].push_back(Json::array({slice, contour}));
+  json["place"] = contours.empty() ? Json() : Json::array({place.x, place.y});
+  return json;
+}
+
+Json to_json(const LinkReport& link) {
+  const bool is_end = link.kind == LinkKind::birth || link.kind == LinkKind::death;
+  const bool is_alone = is_end && link.reason != LinkReason::order;
+  Json json;
+  json["kind"] = loft::name(link.kind);
+  json["of"] = link.is_solid ? "part" : "cavity";
+  json["rule"] = is_alone ? Json() : Json(loft::name(link.reason));
+  json["lower"] = side(link.lower, link.lower_place);
+  json["upper"] = side(link.upper, link.upper_place);
+  json["shift"] = link.shift;
+  json["overlap"] = link.overlap;
+  json["confidence"] = link.confidence;
+  return json;
+}
+
+Json to_json(const SlabReport& slab) {
+  Json json;
+  json["slices"] = {slice_index(slab.lower_slice), slice_index(slab.upper_slice)};
+  json["z"] = {slab.lower_z, slab.upper_z};
+  json["sheet_area"] = slab.sheet_area;
+  json["wall_area"] = slab.wall_area;
+  json["overlap"] = slab.overlap;
+  json["shift"] = slab.shift;
+  json["confidence"] = slab.confidence;
+  json["links"] = Json::array();
+  for (const LinkReport& link : slab.links) json["links"].push_back(to_json(link));
+  return json;
+}
+
 void add_size(Json& json, const StackSize& size) {
   json["slices"] = size.slices;
   json["contours"] = size.contours;
@@ -152,6 +204,8 @@ Json to_json(const PartReport& part) {
   json["cleaning"] = to_json(summarize(part.repairs));
   json["repairs"] = Json::array();
   for (const Defect& repair : part.repairs) json["repairs"].push_back(to_json(repair));
+  json["slabs"] = Json::array();
+  for (const SlabReport& slab : part.slabs) json["slabs"].push_back(to_json(slab));
   return json;
 }
 
@@ -183,6 +237,9 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"keyhole_width",
        command.options.keyhole_width ? Json(*command.options.keyhole_width) : Json()},
       {"cap", name(command.options.cap)},
+      {"link", name(command.options.link)},
+      {"max_shift", command.options.max_shift ? Json(*command.options.max_shift) : Json()},
+      {"links", command.links ? Json(command.links->string()) : Json()},
       {"smooth", command.options.smooth},
       {"metres_per_unit", command.metres_per_unit}};
   for (const auto& [setting, length] : lengths(command.options)) json["options"][setting] = length;

@@ -12,6 +12,7 @@
 
 #include "app/commands.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/link_report.h"
 #include "reconstruct/measure.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"
@@ -54,6 +55,7 @@ struct PartReport {
   Measures measures;
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
   std::vector<Defect> repairs;
+  std::vector<SlabReport> slabs;
   std::map<std::string, double> seconds;  ///< of each stage, by name(Stage)
 };
 
@@ -63,8 +65,9 @@ struct PartReport {
 ///
 ///     schema "loft-reconstruct", schema_version 1, loft (version)
 ///     inputs, outputs      file names
-///     options              fill, keyhole_width (null: by default), cap, smooth, metres_per_unit;
-///                          max_edge, target_edge, simplify if given
+///     options              fill, keyhole_width (null: by default), cap, link, max_shift (null: by
+///                          size), links (file or null), smooth, metres_per_unit; max_edge,
+///                          target_edge, simplify if given
 ///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
 ///     seconds              of each stage that there is: read, clean, tile, smooth, refine, sew,
@@ -72,13 +75,22 @@ struct PartReport {
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, angles, seconds, vertices_of_kind
 ///                          (contour, cleaning, crossing, steiner), cleaning (area; counts by kind;
-///                          slices: a list of slice, z, repairs, area), repairs (a list)
+///                          slices: a list of slice, z, repairs, area), repairs (a list), slabs (a
+///                          list; out of core an empty one)
 ///
 /// angles: of the smallest one of each triangle, in degrees, the least, percentile_5 and median;
 /// worst_aspect, the longest side over the height on it, 1 where all sides are equal.
 /// A repair: kind, slice (index in the input), z, contour, point, place [x, y] (null where not
-/// known), area (that it decided: see Defect), message. Lengths in the unit of the input. Later
-/// versions of the schema may add keys.
+/// known), area (that it decided: see Defect), message.
+///
+/// A slab, from low to high: slices [lower, upper], z [lower, upper], sheet_area, wall_area,
+/// overlap, shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth,
+/// death), of (part or cavity), rule (overlap, slide, predicted, nearest, order; null for what
+/// begins or ends as nothing overlaps it), lower and upper: contours (a list of [slice, contour])
+/// and place [x, y] (null if there are none); shift, overlap, confidence. reconstruct/link_report.h
+/// says what the numbers mean, reconstruct/pieces.h the rules.
+///
+/// Lengths in the unit of the input. Later versions of the schema may add keys.
 struct Report {
   StackSize input;
   std::vector<PartReport> parts;
@@ -104,6 +116,7 @@ struct Report {
 
 [[nodiscard]] const char* name(Fill fill);
 [[nodiscard]] const char* name(Cap cap);
+[[nodiscard]] const char* name(LinkRule rule);
 [[nodiscard]] const char* name(Stage stage);
 
 }  // namespace loft::app

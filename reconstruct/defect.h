@@ -29,6 +29,7 @@ enum class DefectKind {
   empty_slice,       ///< a slice without contours between others: the shape ends and starts again
   merged_slices,     ///< two slices of the same height: merged into one
   unlinked_slices,   ///< no valid surface was found between two slices: both end half way
+  refused_link,      ///< an order to link or not to link contours could not be met
 };
 
 /// The kind's name as reports print it, for example `self_crossing`.

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "cdt/point.h"
 
@@ -36,6 +38,30 @@ enum class Cap {
   open,  ///< nothing: the surface ends in the contours
 };
 
+/// Which parts of neighbouring slices the surface joins.
+enum class LinkRule {
+  automatic,  ///< those that overlap in projection, and those that belong together by their places
+  overlap,    ///< those that overlap in projection
+  none,       ///< none but those that LinkOrders ask for: every other part ends at half way
+};
+
+/// A contour of the input.
+struct ContourId {
+  std::uint32_t slice = 0;    ///< index in the input
+  std::uint32_t contour = 0;  ///< index in its slice
+
+  friend auto operator<=>(const ContourId&, const ContourId&) = default;
+};
+
+/// What the user wants of two contours in neighbouring slices: the parts that they bound are
+/// linked, or are not.
+struct LinkOrder {
+  ContourId from;
+  ContourId to;
+  bool is_link = true;     ///< false: the two must not be linked
+  std::string place = {};  ///< where it was given, for messages: `links.ndjson:3`; may be empty
+};
+
 struct Options {
   Fill fill = Fill::even_odd;
   std::optional<double> keyhole_width = {};  ///< see Filling
@@ -55,6 +81,14 @@ struct Options {
   /// Removes vertices as long as the surface moves by no more than that: see simplify(). Not
   /// negative; not with max_edge or target_edge.
   std::optional<double> simplify = {};
+  LinkRule link = LinkRule::automatic;
+  /// The farthest that LinkRule::automatic moves a part sideways from slice to slice, in the unit
+  /// of the input; by the parts' size where not set (links.h). LinkOrders may ask for more.
+  std::optional<double> max_shift = {};
+  /// Orders that cannot be met are reported among the repairs; the slab is then as without them.
+  std::vector<LinkOrder> links = {};
+  /// Whether to fill Reconstruction::slabs.
+  bool reports_slabs = false;
 };
 
 }  // namespace loft

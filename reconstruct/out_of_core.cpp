@@ -9,6 +9,7 @@
 
 #include "reconstruct/caps.h"
 #include "reconstruct/heights.h"
+#include "reconstruct/linking.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/refine.h"
@@ -86,6 +87,7 @@ class Work {
         options_(options),
         sink_(sink),
         regions_(options.cap),
+        linking_(options),
         memories_(thread_count(options.threads)),
         workspaces_(thread_count(options.threads)) {}
 
@@ -141,17 +143,26 @@ class Work {
     return cleaned;
   }
 
-  /// Makes the slabs of which everything is known that they depend on.
+  /// Takes every slab as far as the regions that are known allow.
   void make_slabs(bool is_end) {
     add_shapes();
-    const std::size_t ahead = options_.smooth && !is_end ? 2 : 1;  // slices that a slab looks at
-    const std::size_t first = slab_bound_;
-    if (regions_.bound() < first + 1 + ahead) return;
-    slab_bound_ = regions_.bound() - ahead;
-    std::vector<TileSet> slabs(slab_bound_ - first);
-    for_each_index(slabs.size(), options_.threads, [&](std::size_t i, unsigned worker) {
-      slabs[i] = make_slab(first + i, workspaces_[worker]);
+    if (regions_.bound() < 2) return;  // from the second on the first one stays
+    for (; added_bound_ < regions_.bound(); ++added_bound_) linking_.add(regions_[added_bound_]);
+    const std::size_t tiled = std::exchange(tiled_bound_, linking_.slab_bound());
+    for_each_index(tiled_bound_ - tiled, options_.threads, [&](std::size_t i, unsigned worker) {
+      linking_.tile(tiled + i, workspaces_[worker]);
     });
+    // Each of the following steps looks at what the one before made of the next slab.
+    const std::size_t behind = is_end ? 0 : 1;
+    const std::size_t matched = std::exchange(matched_bound_, tiled_bound_ - behind);
+    for_each_index(matched_bound_ - matched, options_.threads,
+                   [&](std::size_t i, unsigned) { linking_.match(matched + i); });
+    if (matched_bound_ < slab_bound_ + behind + (is_end ? 0 : 1)) return;
+    const std::size_t first = std::exchange(slab_bound_, matched_bound_ - behind);
+    std::vector<TileSet> slabs(slab_bound_ - first);
+    for_each_index(slabs.size(), options_.threads,
+                   [&](std::size_t i, unsigned) { slabs[i] = make_slab(first + i); });
+    linking_.drop_below(slab_bound_ == 0 ? 0 : slab_bound_ - 1);
 
     std::vector<Layer> layers;
     if (first == 0 && options_.cap == Cap::flat) layers.push_back(bottom_cap(regions_[0]));
@@ -166,13 +177,14 @@ class Work {
     pass_on();
   }
 
-  [[nodiscard]] TileSet make_slab(std::size_t i, TileWorkspace& workspace) const {
-    TileSet tiles = tile(regions_[i], regions_[i + 1], workspace);
+  [[nodiscard]] TileSet make_slab(std::size_t i) {
+    linking_.link(i);
+    TileSet tiles = std::move(linking_.tiles(i));
     if (options_.smooth) {
       Surroundings around{};
       for (std::size_t k = 0; k < around.size(); ++k)
         if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_[i + k - 1 - first_shape_];
-      tiles = smooth(regions_[i], regions_[i + 1], around, std::move(tiles));
+      tiles = smooth(regions_[i], regions_[i + 1], around, linking_.pieces(i), std::move(tiles));
     }
     return refine(regions_[i], regions_[i + 1], std::move(tiles), options_);
   }
@@ -299,7 +311,11 @@ class Work {
   Regions regions_;
   std::deque<SliceShape> shapes_;  // of the regions from first_shape_ on, if they are asked for
   std::size_t first_shape_ = 0;
-  std::size_t slab_bound_ = 0;  // slabs below are made
+  Linking linking_;
+  std::size_t added_bound_ = 0;    // regions below are known to it
+  std::size_t tiled_bound_ = 0;    // slabs below are tiled,
+  std::size_t matched_bound_ = 0;  // have their ends matched,
+  std::size_t slab_bound_ = 0;     // are made
   Sewing sewing_;
   std::uint32_t passed_bound_ = 0;  // layers below are passed on
   Survey survey_;

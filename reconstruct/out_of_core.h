@@ -45,6 +45,7 @@ struct OutOfCoreReport {
 /// which touch need. Throws as reconstruct() does; but of slices with unusable numbers only
 /// those read until then are listed: call find_unusable() beforehand to have all. What the sink
 /// got is of no use then.
+/// Options::links is not looked at: orders need the whole stack.
 /// Progress has one stage, Stage::tile. Cost: O(n log n).
 [[nodiscard]] OutOfCoreReport reconstruct_out_of_core(const SliceSource& source,
                                                       const Options& options, SurfaceSink& sink,

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "reconstruct/heights.h"
+#include "reconstruct/linking.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/refine.h"
@@ -54,6 +55,12 @@ void report_unlinked(std::span<const Region> regions, std::span<const TileSet> s
     if (!slabs[i].is_linked) repairs.push_back(unlinked_slices(regions[i], regions[i + 1]));
 }
 
+std::string in_lines(std::span<const std::string> problems) {
+  std::string text;
+  for (const std::string& problem : problems) text += (text.empty() ? "" : "\n") + problem;
+  return text;
+}
+
 /// Counts the finished steps of a stage, of whatever thread, and passes them on one at a time.
 class Reporter {
  public:
@@ -98,16 +105,54 @@ std::vector<Region> clean_all(std::span<const Slice> slices, std::span<const Hei
   return regions;
 }
 
-std::vector<TileSet> tile_all(const std::vector<Region>& regions, unsigned threads,
-                              const Progress& progress) {
-  Reporter reporter(progress, Stage::tile, regions.size() - 1);
+/// The slabs of a stack: tiled, linked, and then whatever the options ask for.
+struct Slabs {
+  std::vector<TileSet> tiles;
+  std::vector<Pieces> pieces;
+};
+
+Slabs tile_all(const std::vector<Region>& regions, Linking& linking, unsigned threads,
+               const Progress& progress) {
+  for (const Region& region : regions) linking.add(region);
+  const std::size_t count = linking.slab_bound();
+  Reporter reporter(progress, Stage::tile, 2 * count);
   std::vector<TileWorkspace> workspaces(thread_count(threads));
-  std::vector<TileSet> slabs(regions.size() - 1);
-  for_each_index(slabs.size(), threads, [&](std::size_t i, unsigned worker) {
-    slabs[i] = tile(regions[i], regions[i + 1], workspaces[worker]);
+  for_each_index(count, threads, [&](std::size_t i, unsigned worker) {
+    linking.tile(i, workspaces[worker]);
     reporter.add_step();
   });
+  for_each_index(count, threads, [&](std::size_t i, unsigned) { linking.match(i); });
+  for_each_index(count, threads, [&](std::size_t i, unsigned) {
+    linking.link(i);
+    reporter.add_step();
+  });
+  Slabs slabs;
+  for (std::size_t i = 0; i < count; ++i) {
+    slabs.tiles.push_back(std::move(linking.tiles(i)));
+    slabs.pieces.push_back(std::move(linking.pieces(i)));
+  }
   return slabs;
+}
+
+/// The orders that could not be met, in the order of `orders`, each once.
+void report_refused(std::span<const Slice> slices, std::span<const LinkOrder> orders,
+                    std::vector<Refusal> refusals, const Linking& linking,
+                    std::vector<Defect>& repairs) {
+  for (std::size_t i = 0; i < linking.slab_bound(); ++i)
+    refusals.insert(refusals.end(), linking.refusals(i).begin(), linking.refusals(i).end());
+  std::ranges::stable_sort(refusals, {}, &Refusal::order);
+  for (const Refusal& refusal : refusals) {
+    const LinkOrder& order = orders[refusal.order];
+    const ContourId& from = order.from;
+    repairs.push_back({DefectKind::refused_link,
+                       slices[from.slice].z,
+                       from.slice,
+                       from.contour,
+                       {},
+                       {},
+                       0,
+                       describe(order, refusal)});
+  }
 }
 
 /// The slices around each slab.
@@ -118,16 +163,17 @@ Surroundings surroundings(std::span<const SliceShape> shapes, std::size_t slab) 
   return found;
 }
 
-void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs, unsigned threads,
+void smooth_all(const std::vector<Region>& regions, Slabs& slabs, unsigned threads,
                 const Progress& progress) {
-  Reporter reporter(progress, Stage::smooth, regions.size() + slabs.size());
+  Reporter reporter(progress, Stage::smooth, regions.size() + slabs.tiles.size());
   std::vector<SliceShape> shapes(regions.size());
   for_each_index(regions.size(), threads, [&](std::size_t i, unsigned) {
     shapes[i] = SliceShape(regions[i]);
     reporter.add_step();
   });
-  for_each_index(slabs.size(), threads, [&](std::size_t i, unsigned) {
-    slabs[i] = smooth(regions[i], regions[i + 1], surroundings(shapes, i), std::move(slabs[i]));
+  for_each_index(slabs.tiles.size(), threads, [&](std::size_t i, unsigned) {
+    slabs.tiles[i] = smooth(regions[i], regions[i + 1], surroundings(shapes, i), slabs.pieces[i],
+                            std::move(slabs.tiles[i]));
     reporter.add_step();
   });
 }
@@ -150,9 +196,13 @@ void check_enough(std::span<const Region> regions) {
 
 }  // namespace
 
-Reconstruction reconstruct(std::span<const Slice> slices, const Options& options,
+Reconstruction reconstruct(std::span<const Slice> slices, const Options& all_options,
                            const Progress& progress) {
   if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  if (const auto problems = find_bad_orders(slices, all_options.links); !problems.empty())
+    throw InputError(in_lines(problems));
+  Options options = all_options;
+  options.links = orders_for(options.label, slices, options.links);
   std::vector<Defect> repairs;
   std::vector<double> z;
   for (const Slice& slice : slices) z.push_back(slice.z);
@@ -160,15 +210,21 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   auto regions = trim(clean_all(slices, heights, options, repairs, progress), repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
-  auto slabs = tile_all(regions, options.threads, progress);
-  if (options.smooth) smooth_all(regions, slabs, options.threads, progress);
-  if (options.max_edge || options.target_edge) refine_all(regions, slabs, options, progress);
-  report_unlinked(regions, slabs, repairs);
+  std::vector<Refusal> refusals;
+  Linking linking(options, orders_of_slabs(regions, options.links, refusals));
+  Slabs slabs = tile_all(regions, linking, options.threads, progress);
+  report_unlinked(regions, slabs.tiles, repairs);
+  report_refused(slices, options.links, std::move(refusals), linking, repairs);
   std::ranges::stable_sort(repairs, {}, &Defect::z);
+  std::vector<SlabReport> reports;
+  if (options.reports_slabs) reports = report_slabs(regions, slabs.tiles, slabs.pieces);
+  if (options.smooth) smooth_all(regions, slabs, options.threads, progress);
+  if (options.max_edge || options.target_edge)
+    refine_all(regions, slabs.tiles, options, progress);
   Reporter sewing(progress, Stage::sew, 1);
   // Made in its place: an OpenMesh mesh cannot be moved, only copied.
-  Reconstruction result{sew(regions, std::move(slabs), options.cap, options.threads),
-                        std::move(repairs)};
+  Reconstruction result{sew(regions, std::move(slabs.tiles), options.cap, options.threads),
+                        std::move(repairs), std::move(reports)};
   sewing.add_step();
   if (options.simplify) {
     Reporter simplifying(progress, Stage::simplify, 1);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reconstruct/defect.h"
+#include "reconstruct/link_report.h"
 #include "reconstruct/options.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"
@@ -16,7 +17,8 @@ namespace loft {
 /// A surface and what was found and repaired on the way to it.
 struct Reconstruction {
   Surface surface;
-  std::vector<Defect> repairs;  ///< in the order of heights; none is fatal
+  std::vector<Defect> repairs;    ///< in the order of heights; none is fatal
+  std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
 };
 
 /// Thrown by reconstruct() when its Progress asked for it.

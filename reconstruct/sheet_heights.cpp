@@ -2,6 +2,7 @@
 #include "reconstruct/sheet_heights.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace loft {
@@ -65,9 +66,9 @@ const SheetHeights::Sheet& SheetHeights::measured(EdgeId e) {
 Point SheetHeights::centroid(TriangleId t) const {
   const Triangulation& mesh = slab_.overlay();
   const EdgeId e = Triangulation::edge(t);
-  const Point a = mesh.point(mesh.from(e));
-  const Point b = mesh.point(mesh.to(e));
-  const Point c = mesh.point(mesh.apex(e));
+  std::array corners{mesh.point(mesh.from(e)), mesh.point(mesh.to(e)), mesh.point(mesh.apex(e))};
+  std::ranges::sort(corners);  // the same to the last bit whichever comes first
+  const auto& [a, b, c] = corners;
   return {a.x + ((b.x - a.x) + (c.x - a.x)) / 3, a.y + ((b.y - a.y) + (c.y - a.y)) / 3};
 }
 

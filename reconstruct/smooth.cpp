@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -76,148 +75,91 @@ class EdgeIndex {
   std::unordered_map<std::uint64_t, std::uint32_t> values_;  // looked up, never walked through
 };
 
-/// Pieces of a slab's tiles that are connected through edges other than those of contours.
-class Pieces {
- public:
-  Pieces(const Region& lower, const Region& upper, const Surroundings& slices, const TileSet& tiles)
-      : lower_(lower),
-        upper_(upper),
-        slices_(slices),
-        tiles_(tiles),
-        lower_count_(static_cast<std::uint32_t>(lower.points.size())),
-        contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())) {
-    connect();
-    find_shapes();
-  }
-
-  [[nodiscard]] std::vector<std::uint32_t>& of_tiles() { return piece_; }
-  [[nodiscard]] const Shape& shape(std::uint32_t piece) const { return shapes_[piece]; }
-
- private:
-  /// Union-find over tiles.
-  void connect() {
-    piece_.resize(tiles_.tiles.size());
-    std::iota(piece_.begin(), piece_.end(), 0);
-    const auto root = [this](std::uint32_t tile) {
-      while (piece_[tile] != tile) tile = piece_[tile] = piece_[piece_[tile]];
-      return tile;
-    };
-    EdgeIndex tile_at;
-    for (std::uint32_t t = 0; t < piece_.size(); ++t) {
-      const auto& nodes = tiles_.tiles[t].nodes;
-      for (std::size_t i = 0; i < 3; ++i) {
-        if (is_contour(nodes[i], nodes[(i + 1) % 3])) continue;
-        const auto [other, is_known] = tile_at.at(nodes[i], nodes[(i + 1) % 3]);
-        if (!is_known) {
-          other = t;
-          continue;
-        }
-        const auto [low, high] = std::minmax({root(t), root(other)});
-        piece_[high] = low;
-      }
-    }
-    std::uint32_t count = 0;
-    std::vector<std::uint32_t> number(piece_.size());
-    for (std::uint32_t t = 0; t < piece_.size(); ++t) {
-      const std::uint32_t r = root(t);
-      if (r == t) number[t] = count++;
-      piece_[t] = r;
-    }
-    for (std::uint32_t& piece : piece_) piece = number[piece];
-    shapes_.resize(count);
-  }
-
-  [[nodiscard]] bool is_contour(std::uint32_t a, std::uint32_t b) const {
-    return std::max(a, b) < contour_count_ && (a < lower_count_) == (b < lower_count_);
-  }
-
-  /// Which slices' contours each piece touches.
-  void find_shapes() {
-    std::vector<unsigned> touched(shapes_.size());
-    for (std::uint32_t t = 0; t < piece_.size(); ++t)
-      for (const std::uint32_t node : tiles_.tiles[t].nodes)
-        if (node < contour_count_) touched[piece_[t]] |= node < lower_count_ ? 1U : 2U;
-    const auto ends = find_depths(touched);
-    for (std::uint32_t piece = 0; piece < shapes_.size(); ++piece) {
-      if (touched[piece] == 3) {
-        shapes_[piece] = SmoothPassage(slices_);
-      } else if (ends[piece].depth > 0) {
-        shapes_[piece] = SmoothEnd(slices_, touched[piece], ends[piece].place, ends[piece].depth);
-      }
-    }
-  }
-
-  struct Depth {
-    Point place;
-    double depth = 0;
-  };
-
-  /// The deepest place of each piece that touches one slice only, as near as a search from its
-  /// corners and middles of edges comes; of equally deep ones the first by coordinates.
-  [[nodiscard]] std::vector<Depth> find_depths(const std::vector<unsigned>& touched) const {
-    std::vector<Depth> deepest(shapes_.size());
-    for (std::uint32_t t = 0; t < piece_.size(); ++t) {
-      const unsigned slice = touched[piece_[t]];
-      if (slice != 1 && slice != 2) continue;
-      Depth& known = deepest[piece_[t]];
-      const auto look = [&](const Vec3& p) {
-        const Point place{p[0], p[1]};
-        const double depth = std::abs(slices_[slice]->distance.at(place).distance);
-        if (depth > known.depth || (depth == known.depth && place < known.place))
-          known = {place, depth};
-      };
-      const auto& nodes = tiles_.tiles[t].nodes;
-      for (std::size_t i = 0; i < 3; ++i) {
-        const Vec3 p = place_of(lower_, upper_, tiles_.inner, nodes[i]);
-        look(p);
-        look(middle(p, place_of(lower_, upper_, tiles_.inner, nodes[(i + 1) % 3])));
-      }
-    }
-    for (std::uint32_t piece = 0; piece < deepest.size(); ++piece)
-      if (deepest[piece].depth > 0) deepen(deepest[piece], slices_[touched[piece]]->distance);
-    return deepest;
-  }
-
-  /// Pattern search (Hooke and Jeeves, 1961): to the best of eight places around, nearer by half
-  /// where none is better.
-  static void deepen(Depth& deepest, const SignedDistance& distance) {
-    const double side = distance.at(deepest.place).distance < 0 ? -1 : 1;
-    constexpr double finest = 0.01;
-    for (double step = deepest.depth / 2; step > finest * deepest.depth;) {
-      Depth best = deepest;
-      for (int x = -1; x <= 1; ++x) {
-        for (int y = -1; y <= 1; ++y) {
-          const Point place{deepest.place.x + step * x, deepest.place.y + step * y};
-          const double depth = side * distance.at(place).distance;
-          if (depth > best.depth) best = {place, depth};
-        }
-      }
-      if (best.depth > deepest.depth) {
-        deepest = best;
-      } else {
-        step /= 2;
-      }
-    }
-  }
-
-  const Region& lower_;
-  const Region& upper_;
-  const Surroundings& slices_;
-  const TileSet& tiles_;
-  std::uint32_t lower_count_;
-  std::uint32_t contour_count_;
-  std::vector<std::uint32_t> piece_;  // of each tile
-  std::vector<Shape> shapes_;         // of each piece
+/// The deepest known place of a part.
+struct Depth {
+  Point place;
+  double depth = 0;
 };
+
+/// Pattern search (Hooke and Jeeves, 1961): to the best of eight places around, nearer by half where
+/// none is better.
+void deepen(Depth& deepest, const SignedDistance& distance) {
+  const double side = distance.at(deepest.place).distance < 0 ? -1 : 1;
+  constexpr double finest = 0.01;
+  for (double step = deepest.depth / 2; step > finest * deepest.depth;) {
+    Depth best = deepest;
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        const Point place{deepest.place.x + step * x, deepest.place.y + step * y};
+        const double depth = side * distance.at(place).distance;
+        if (depth > best.depth) best = {place, depth};
+      }
+    }
+    if (best.depth > deepest.depth) {
+      deepest = best;
+    } else {
+      step /= 2;
+    }
+  }
+}
+
+/// The deepest place of each piece that ends in the slab, as near as a search from its corners and
+/// middles of edges comes; of equally deep ones the first by coordinates.
+std::vector<Depth> find_depths(const Region& lower, const Region& upper, const Surroundings& slices,
+                               const Pieces& pieces, const TileSet& tiles) {
+  std::vector<Depth> deepest(pieces.pieces.size());
+  const auto shape = [&](const Piece& piece) -> const SignedDistance& {
+    return slices[piece.lower.is_empty() ? 2 : 1]->distance;
+  };
+  for (std::uint32_t t = 0; t < tiles.tiles.size(); ++t) {
+    const Piece& piece = pieces.pieces[pieces.of_tile[t]];
+    if (!piece.is_end()) continue;
+    Depth& known = deepest[pieces.of_tile[t]];
+    const auto look = [&](const Vec3& p) {
+      const Point place{p[0], p[1]};
+      const double depth = std::abs(shape(piece).at(place).distance);
+      if (depth > known.depth || (depth == known.depth && place < known.place))
+        known = {place, depth};
+    };
+    const auto& nodes = tiles.tiles[t].nodes;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 p = place_of(lower, upper, tiles.inner, nodes[i]);
+      look(p);
+      look(middle(p, place_of(lower, upper, tiles.inner, nodes[(i + 1) % 3])));
+    }
+  }
+  for (std::uint32_t i = 0; i < deepest.size(); ++i)
+    if (deepest[i].depth > 0) deepen(deepest[i], shape(pieces.pieces[i]));
+  return deepest;
+}
+
+/// What each piece is bent to.
+std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const Surroundings& slices,
+                               const Pieces& pieces, const TileSet& tiles) {
+  const std::vector<Depth> depths = find_depths(lower, upper, slices, pieces, tiles);
+  std::vector<Shape> shapes(pieces.pieces.size());
+  for (std::uint32_t i = 0; i < shapes.size(); ++i) {
+    const Piece& piece = pieces.pieces[i];
+    if (!piece.is_end()) {
+      shapes[i] = SmoothPassage(slices, piece.shift);
+    } else if (depths[i].depth > 0) {
+      shapes[i] =
+          SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place, depths[i].depth);
+    }
+  }
+  return shapes;
+}
 
 class Smoothing {
  public:
-  Smoothing(const Region& lower, const Region& upper, const Surroundings& slices, TileSet tiles)
+  Smoothing(const Region& lower, const Region& upper, const Surroundings& slices,
+            const Pieces& pieces, TileSet tiles)
       : lower_(lower),
         upper_(upper),
         plain_(std::move(tiles)),
         tiles_(plain_),
-        pieces_(lower, upper, slices, plain_),
+        piece_(pieces.of_tile),
+        shapes_(find_shapes(lower, upper, slices, pieces, plain_)),
         lower_count_(static_cast<std::uint32_t>(lower.points.size())),
         contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())) {}
 
@@ -277,10 +219,10 @@ class Smoothing {
     std::vector<std::uint32_t> piece(tiles_.inner.size(), none);
     for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t)
       for (const std::uint32_t node : tiles_.tiles[t].nodes)
-        if (node >= contour_count_) piece[node - contour_count_] = pieces_.of_tiles()[t];
+        if (node >= contour_count_) piece[node - contour_count_] = piece_[t];
     for (std::uint32_t i = 0; i < tiles_.inner.size(); ++i) {
       const Vec3 start = tiles_.inner[i].place;
-      const Shape& shape = pieces_.shape(piece[i]);
+      const Shape& shape = shapes_[piece[i]];
       const bool is_end = std::holds_alternative<SmoothEnd>(shape);
       const Vec3 way = way_to(shape, start, (is_end ? most_of_end : most_of_fork) * height());
       moves_.push_back({{none, none}, start, way});
@@ -294,7 +236,7 @@ class Smoothing {
     std::vector<std::uint32_t> pieces;
     for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
       const Tile& tile = tiles_.tiles[t];
-      const std::uint32_t piece = pieces_.of_tiles()[t];
+      const std::uint32_t piece = piece_[t];
       std::array<std::uint32_t, 3> split;
       for (std::size_t i = 0; i < 3; ++i)
         split[i] = middle_of(tile.nodes[i], tile.nodes[(i + 1) % 3], piece);
@@ -303,7 +245,7 @@ class Smoothing {
     }
     const bool is_changed = tiles.size() != tiles_.tiles.size();
     tiles_.tiles = std::move(tiles);
-    pieces_.of_tiles() = std::move(pieces);
+    piece_ = std::move(pieces);
     return is_changed;
   }
 
@@ -314,7 +256,7 @@ class Smoothing {
     if (is_known) return node;
     const Vec3 start = middle(place(a), place(b));
     const Vec3 way =
-        way_to(pieces_.shape(piece), start, most_of_edge * length(difference(place(a), place(b))));
+        way_to(shapes_[piece], start, most_of_edge * length(difference(place(a), place(b))));
     if (!(length(way) > coarseness * height())) return none;
     node = contour_count_ + static_cast<std::uint32_t>(tiles_.inner.size());
     tiles_.inner.push_back({along(start, 1, way), VertexKind::steiner});
@@ -410,7 +352,8 @@ class Smoothing {
   const Region& upper_;
   TileSet plain_;
   TileSet tiles_;
-  Pieces pieces_;
+  std::vector<std::uint32_t> piece_;  // of each tile
+  std::vector<Shape> shapes_;         // of each piece
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
   std::vector<Move> moves_;  // of each inner vertex
@@ -421,9 +364,9 @@ class Smoothing {
 }  // namespace
 
 TileSet smooth(const Region& lower, const Region& upper, const Surroundings& slices,
-               TileSet tiles) {
+               const Pieces& pieces, TileSet tiles) {
   if (!tiles.is_linked || tiles.tiles.empty()) return tiles;
-  return Smoothing(lower, upper, slices, std::move(tiles)).run();
+  return Smoothing(lower, upper, slices, pieces, std::move(tiles)).run();
 }
 
 }  // namespace loft

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "reconstruct/pieces.h"
 #include "reconstruct/region.h"
 #include "reconstruct/smooth_shape.h"
 #include "reconstruct/tiles.h"
@@ -8,15 +9,16 @@
 namespace loft {
 
 /// Bends the tiles of a slab towards the smooth surface through the slices around it (design,
-/// section 3, step 9). `lower` and `upper` are the regions that `tiles` lie between; `slices[1]`
-/// and `slices[2]` are their shapes.
+/// section 3, step 9). `lower` and `upper` are the regions that `tiles` lie between, `slices[1]` and
+/// `slices[2]` their shapes, `pieces` the tiles' pieces. A piece that was moved sideways to be linked
+/// is bent around its slanted axis.
 ///
 /// Contour vertices and edges stay as they are. Every other edge that is off the smooth surface is
 /// split at a point on it, thrice at most. The tiles stay what tile() promises, by exact test:
 /// where bent ones would meet, they are straightened until they do not.
-/// A pure function of the four slices, so that an edit of a slice changes four slabs at most.
+/// A function of the tiles and the four slices, so that an edit of a slice changes four slabs at most.
 /// Cost: O(n log n) for n tiles, in practice.
 [[nodiscard]] TileSet smooth(const Region& lower, const Region& upper, const Surroundings& slices,
-                             TileSet tiles);
+                             const Pieces& pieces, TileSet tiles);
 
 }  // namespace loft

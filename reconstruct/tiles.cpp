@@ -263,28 +263,6 @@ bool fit_together(const Region& lower, const Region& upper, const TileSet& tiles
   return true;
 }
 
-/// Both regions end half way: nothing of one slice is near anything of the other.
-TileSet tile_apart(const Region& lower, const Region& upper, TileWorkspace& workspace) {
-  Region nothing;
-  nothing.z = lower.z + (upper.z - lower.z) / 2;
-  nothing.loop_starts = {0};
-  TileSet tiles = tile(lower, nothing, workspace);
-  TileSet above = tile(nothing, upper, workspace);
-  const auto lower_count = static_cast<std::uint32_t>(lower.points.size());
-  const auto upper_count = static_cast<std::uint32_t>(upper.points.size());
-  for (Tile& tile : tiles.tiles)
-    for (std::uint32_t& node : tile.nodes)
-      if (node >= lower_count) node += upper_count;
-  const auto inner_count = static_cast<std::uint32_t>(tiles.inner.size());
-  for (Tile& tile : above.tiles)
-    for (std::uint32_t& node : tile.nodes)
-      node += lower_count + (node >= upper_count ? inner_count : 0);
-  tiles.inner.insert(tiles.inner.end(), above.inner.begin(), above.inner.end());
-  tiles.tiles.insert(tiles.tiles.end(), above.tiles.begin(), above.tiles.end());
-  tiles.is_linked = false;
-  return tiles;
-}
-
 /// That often a slab is sheared anew before its slices are left apart.
 constexpr int most_shears = 12;
 
@@ -330,26 +308,59 @@ TileSet tile_end(const Region& lower, const Region& upper, TileWorkspace& worksp
   return tiles;
 }
 
-}  // namespace
-
 /// Where contours of both slices meet within rounding of each other, as three lines through one
 /// point may, the overlay can't be exact. Then the slab is sheared a little before it is tiled, in
 /// no special direction, and back again: a shear keeps tiles valid, and nothing meets by chance.
 /// Where a slice has slivers that are little wider than rounding, no overlay is exact: then one
 /// will do if all that is asked of its tiles holds.
-TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace) {
+std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
+                                  TileWorkspace& workspace) {
   if (lower.is_empty() || upper.is_empty()) return tile_end(lower, upper, workspace);
   const Scale lengths = scale(lower, upper);
   for (const Overlay overlay : {Overlay::exact, Overlay::rounded}) {
     for (int attempt = 0; attempt < most_shears; ++attempt) {
       const double turn = 2.399963 * attempt;  // the golden angle
       const double step = attempt * lengths.shear;
-      const Point shear{step * std::cos(turn), step * std::sin(turn)};
+      const Point shear{shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)};
       if (auto tiles = tile_sheared(lower, upper, shear, lengths.tight, overlay, workspace))
-        return std::move(*tiles);
+        return tiles;
     }
   }
-  return tile_apart(lower, upper, workspace);
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift) {
+  TileWorkspace workspace;
+  return tile_moved(lower, upper, shift, workspace);
+}
+
+TileSet tile_apart(const Region& lower, const Region& upper) {
+  TileWorkspace workspace;
+  Region nothing;
+  nothing.z = lower.z + (upper.z - lower.z) / 2;
+  nothing.loop_starts = {0};
+  TileSet tiles = tile_end(lower, nothing, workspace);
+  TileSet above = tile_end(nothing, upper, workspace);
+  const auto lower_count = static_cast<std::uint32_t>(lower.points.size());
+  const auto upper_count = static_cast<std::uint32_t>(upper.points.size());
+  for (Tile& tile : tiles.tiles)
+    for (std::uint32_t& node : tile.nodes)
+      if (node >= lower_count) node += upper_count;
+  const auto inner_count = static_cast<std::uint32_t>(tiles.inner.size());
+  for (Tile& tile : above.tiles)
+    for (std::uint32_t& node : tile.nodes)
+      node += lower_count + (node >= upper_count ? inner_count : 0);
+  tiles.inner.insert(tiles.inner.end(), above.inner.begin(), above.inner.end());
+  tiles.tiles.insert(tiles.tiles.end(), above.tiles.begin(), above.tiles.end());
+  tiles.is_linked = false;
+  return tiles;
+}
+
+TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace) {
+  if (auto tiles = tile_moved(lower, upper, {}, workspace)) return std::move(*tiles);
+  return tile_apart(lower, upper);
 }
 
 TileSet tile(const Region& lower, const Region& upper) {

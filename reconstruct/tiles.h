@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -51,5 +52,15 @@ struct TileWorkspace {
 
 /// The same tiles, without new memory for their triangulations.
 [[nodiscard]] TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace);
+
+/// The same with the upper region moved by `shift` while vertices are chosen to link: a shear of
+/// the slab, taken back afterwards, so that contour vertices are where they were and others move by
+/// their height's share of the shift (design, section 3, step 10). None if no valid tiles are
+/// found.
+[[nodiscard]] std::optional<TileSet> tile_moved(const Region& lower, const Region& upper,
+                                                cdt::Point shift);
+
+/// Nothing is linked: each region ends before half way, whatever is above or below it.
+[[nodiscard]] TileSet tile_apart(const Region& lower, const Region& upper);
 
 }  // namespace loft

@@ -161,6 +161,75 @@ TEST(Loft, ReportsAsJson) {
   EXPECT_EQ(report["parts"][1]["label"], "lung");
 }
 
+TEST(Loft, LinksPartsThatMoveSideways) {
+  const Folder folder;
+  std::string stack;
+  for (int i = 0; i < 5; ++i) stack += slice(i, ring(1, 20, 2.5 * i));
+  static_cast<void>(folder.write("in.ndjson", stack));
+  static_cast<void>(
+      folder.write("links.ndjson", "{\"from\": [1, 0], \"to\": [2, 0], \"link\": false}\n"));
+  const auto components = [&](const std::string& options) {
+    const Outcome outcome = run(folder, "reconstruct in.ndjson -o a.ply --json " + options);
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    EXPECT_EQ(run(folder, "check a.ply --stack in.ndjson").exit_code, 0) << options;
+    return nlohmann::json::parse(outcome.out)["components"].get<int>();
+  };
+  EXPECT_EQ(components(""), 1);
+  EXPECT_EQ(components("--link overlap"), 5);
+  EXPECT_EQ(components("--link none"), 5);
+  EXPECT_EQ(components("--max-shift 2"), 5);
+  EXPECT_EQ(components("--links links.ndjson"), 2);
+  EXPECT_EQ(components("--link none --links links.ndjson"), 5);
+}
+
+TEST(Loft, ReportsLinks) {
+  const Folder folder;
+  static_cast<void>(
+      folder.write("in.ndjson", slice(0, ring(1, 20)) + slice(1, ring(1, 20, 2.5)) +
+                                    slice(2, ring(1, 20, 5) + ", " + ring(1, 20, 50))));
+  static_cast<void>(folder.write("links.ndjson",
+                                 "{\"from\": [1, 0], \"to\": [2, 1], \"link\": true}\n"
+                                 "{\"from\": [1, 0], \"to\": [2, 0], \"link\": false}\n"));
+  const Outcome outcome =
+      run(folder, "reconstruct in.ndjson -o a.ply --json --links links.ndjson --max-shift 3");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto report = nlohmann::json::parse(outcome.out);
+  EXPECT_EQ(report["options"]["link"], "auto");
+  EXPECT_EQ(report["options"]["max_shift"], 3);
+  EXPECT_EQ(report["options"]["links"], "links.ndjson");
+  const auto& slabs = report["parts"][0]["slabs"];
+  ASSERT_EQ(slabs.size(), 2U);
+  EXPECT_EQ(slabs[0]["slices"], nlohmann::json::parse("[0, 1]"));
+  EXPECT_EQ(slabs[0]["z"], nlohmann::json::parse("[0.0, 1.0]"));
+  ASSERT_EQ(slabs[1]["links"].size(), 2U);
+  const auto& link = slabs[1]["links"][0];
+  EXPECT_EQ(link["kind"], "link");
+  EXPECT_EQ(link["of"], "part");
+  EXPECT_EQ(link["rule"], "order");
+  EXPECT_EQ(link["lower"]["contours"], nlohmann::json::parse("[[1, 0]]"));
+  EXPECT_EQ(link["upper"]["contours"], nlohmann::json::parse("[[2, 1]]"));
+  EXPECT_NEAR(link["shift"].get<double>(), 47.5, 1e-3);
+  const auto& birth = slabs[1]["links"][1];
+  EXPECT_EQ(birth["kind"], "birth");
+  EXPECT_TRUE(birth["lower"]["place"].is_null());
+  EXPECT_EQ(birth["confidence"], 0);
+}
+
+TEST(Loft, NamesBadLinks) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  static_cast<void>(folder.write("links.ndjson", "{\"from\": [0, 0], \"to\": [3, 0]}\nnonsense\n"));
+  const Outcome outcome = run(folder, "reconstruct in.ndjson -o a.ply --links links.ndjson");
+  EXPECT_EQ(outcome.exit_code, 3);
+  EXPECT_NE(outcome.err.find("links.ndjson:1: slice 0 contour 0 and slice 3 contour 0 are not in "
+                             "neighbouring slices"),
+            std::string::npos)
+      << outcome.err;
+  EXPECT_NE(outcome.err.find("links.ndjson:2: "), std::string::npos) << outcome.err;
+  EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --link all").exit_code, 2);
+  EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --max-shift=-1").exit_code, 2);
+}
+
 TEST(Loft, ReadsSeveralFilesAndStandardInput) {
   const Folder folder;
   static_cast<void>(folder.write("stdin", slice(0, ring(8)) + slice(1, ring(9))));

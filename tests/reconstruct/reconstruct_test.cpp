@@ -74,7 +74,9 @@ TEST(Reconstruct, TwoUnlikeCirclesTakeATriangleForEachPoint) {
 TEST(Reconstruct, AnExtrudedSquareIsABox) {
   std::vector<Slice> slices;
   for (const double z : {0.0, 1.0, 2.5, 7.0}) slices.push_back({z, {stacks::square(2)}});
-  const auto [surface, repairs] = reconstruct(slices);
+  const Reconstruction made = reconstruct(slices);
+  const Surface& surface = made.surface;
+  const std::vector<Defect>& repairs = made.repairs;
   EXPECT_TRUE(repairs.empty());
   EXPECT_EQ(faults(surface), "");
   EXPECT_EQ(surface.n_vertices(), 16U);
@@ -169,7 +171,9 @@ TEST(Reconstruct, AnEmptySliceInterruptsTheShape) {
   std::vector<Slice> slices;
   for (int i = 0; i < 5; ++i) slices.push_back({double(i), {stacks::circle(24, 3)}});
   slices[2].contours.clear();
-  const auto [surface, repairs] = reconstruct(slices);
+  const Reconstruction made = reconstruct(slices);
+  const Surface& surface = made.surface;
+  const std::vector<Defect>& repairs = made.repairs;
   EXPECT_EQ(faults(surface), "");
   EXPECT_EQ(measures(surface).components, 2U);
   ASSERT_EQ(repairs.size(), 1U);
@@ -216,7 +220,9 @@ TEST(Reconstruct, SortsSlicesAndMergesThoseOfOneHeight) {
                             {0, {stacks::square(2), stacks::square(1)}},
                             {1, {stacks::square(2)}},
                             {1, {stacks::square(1)}}};
-  const auto [surface, repairs] = reconstruct(slices);
+  const Reconstruction made = reconstruct(slices);
+  const Surface& surface = made.surface;
+  const std::vector<Defect>& repairs = made.repairs;
   ASSERT_EQ(repairs.size(), 1U);
   EXPECT_EQ(repairs[0].kind, DefectKind::merged_slices);
   EXPECT_EQ(repairs[0].slice, 3U);

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/linking.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace loft {
+
+void Linking::add(const Region& region) {
+  regions_.push_back(&region);
+  if (regions_.size() > 1) slabs_.emplace_back();
+}
+
+void Linking::drop_below(std::size_t slab) {
+  for (; first_ < slab; ++first_) {
+    regions_.pop_front();
+    slabs_.pop_front();
+  }
+}
+
+void Linking::tile(std::size_t slab, TileWorkspace& workspace) {
+  OrderedTiles made =
+      tile_by_orders(region(slab), region(slab + 1), options_, orders(slab), workspace);
+  at(slab) = {std::move(made.tiles),     std::move(made.pieces), std::move(made.wanted),
+              std::move(made.forbidden), {},                     std::move(made.refusals)};
+}
+
+SlabPieces Linking::view(std::size_t slab) const {
+  if (slab >= slab_bound()) return {};
+  return {&at(slab).pieces, region(slab + 1).z - region(slab).z};
+}
+
+void Linking::match(std::size_t slab) {
+  Slab& here = at(slab);
+  here.links = here.wanted;
+  if (options_.link != LinkRule::automatic) return;
+  const SlabPieces below = slab == 0 ? SlabPieces() : view(slab - 1);
+  for (const EndLink& link :
+       match_ends(below, view(slab), view(slab + 1), options_.max_shift, here.forbidden)) {
+    const bool is_free = std::ranges::none_of(here.wanted, [&](const EndLink& wanted) {
+      return wanted.lower == link.lower || wanted.upper == link.upper;
+    });
+    if (is_free) here.links.push_back(link);
+  }
+}
+
+namespace {
+
+/// Whether a piece has one of some lower loops and one of some upper ones.
+bool are_linked(const Pieces& pieces, const SlabOrder& order) {
+  const auto has = [](const Footprint& footprint, const std::vector<std::uint32_t>& loops) {
+    return std::ranges::any_of(loops, [&](std::uint32_t loop) {
+      return std::ranges::find(footprint.loops, loop) != footprint.loops.end();
+    });
+  };
+  return std::ranges::any_of(pieces.pieces, [&](const Piece& piece) {
+    return has(piece.lower, order.lower) && has(piece.upper, order.upper);
+  });
+}
+
+}  // namespace
+
+void Linking::link(std::size_t slab) {
+  Slab& here = at(slab);
+  link_ends(region(slab), region(slab + 1), here.tiles, here.pieces, here.links);
+  for (const SlabOrder& order : orders(slab)) {
+    const bool is_refused =
+        std::ranges::find(here.refusals, order.order, &Refusal::order) != here.refusals.end();
+    if (is_refused || are_linked(here.pieces, order) == order.is_link) continue;
+    here.refusals.push_back({order.order, order.is_link
+                                              ? "its tiles would meet others between the slices"
+                                              : "both are linked with another part in common"});
+  }
+}
+
+}  // namespace loft

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/parts.h"
+
+#include <algorithm>
+
+#include "reconstruct/slab.h"
+
+namespace loft {
+
+namespace {
+
+using cdt::EdgeId;
+using cdt::TriangleId;
+using cdt::Triangulation;
+
+constexpr std::uint32_t none = Origin::none;
+
+class PartFinder {
+ public:
+  PartFinder(const Region& lower, const Region& upper)
+      : slab_(lower, upper), mesh_(slab_.overlay()) {}
+
+  PartGraph run() {
+    PartGraph graph;
+    graph.lower_count = label(Level::lower, graph.lower_part);
+    const std::vector<std::uint32_t> lower = label_;
+    graph.upper_count = label(Level::upper, graph.upper_part);
+    for (std::size_t t = 0; t < label_.size(); ++t)
+      if (lower[t] != none && label_[t] != none) graph.overlaps.push_back({lower[t], label_[t]});
+    std::ranges::sort(graph.overlaps);
+    graph.overlaps.erase(std::unique(graph.overlaps.begin(), graph.overlaps.end()),
+                         graph.overlaps.end());
+    return graph;
+  }
+
+ private:
+  [[nodiscard]] bool is_inside(EdgeId e, Level level) const {
+    const auto bit = static_cast<unsigned>(level == Level::lower ? Side::lower : Side::upper);
+    return (static_cast<unsigned>(slab_.side(e)) & bit) != 0;
+  }
+
+  /// Numbers the parts of a slice in label_, for each triangle; for each loop the part on its left.
+  std::uint32_t label(Level level, std::vector<std::uint32_t>& part_of_loop) {
+    label_.assign(mesh_.triangle_bound(), none);
+    std::uint32_t count = 0;
+    for (std::uint32_t t = 0; t < mesh_.triangle_bound(); ++t) {
+      if (label_[t] != none || !mesh_.is_triangle(TriangleId(t))) continue;
+      if (is_inside(Triangulation::edge(TriangleId(t)), level)) fill(TriangleId(t), level, count++);
+    }
+    const Region& region = slab_.region(level);
+    const std::size_t first = level == Level::lower ? 0 : slab_.lower().loop_vertices.size();
+    part_of_loop.assign(region.loop_count(), none);
+    for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
+      const EdgeId e(i);
+      if (!mesh_.is_triangle(Triangulation::triangle(e)) || !is_inside(e, level)) continue;
+      for (const cdt::Passage passage : mesh_.passages(e)) {
+        const std::size_t segment = passage.segment().index();
+        if (slab_.level(passage.segment()) != level) continue;
+        const auto loop = std::ranges::upper_bound(region.loop_starts, segment - first) -
+                          region.loop_starts.begin() - 1;
+        part_of_loop[static_cast<std::size_t>(loop)] = label_[Triangulation::triangle(e).index()];
+      }
+    }
+    return count;
+  }
+
+  void fill(TriangleId start, Level level, std::uint32_t part) {
+    std::vector<TriangleId> front{start};
+    label_[start.index()] = part;
+    while (!front.empty()) {
+      const TriangleId t = front.back();
+      front.pop_back();
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        const EdgeId e = Triangulation::edge(t, corner);
+        const TriangleId beyond = Triangulation::triangle(mesh_.twin(e));
+        if (label_[beyond.index()] != none || slab_.is_contour(e, level)) continue;
+        label_[beyond.index()] = part;
+        front.push_back(beyond);
+      }
+    }
+  }
+
+  Slab slab_;
+  const Triangulation& mesh_;
+  std::vector<std::uint32_t> label_;  // the part of each triangle, or none
+};
+
+}  // namespace
+
+PartGraph find_parts(const Region& lower, const Region& upper) {
+  return PartFinder(lower, upper).run();
+}
+
+}  // namespace loft

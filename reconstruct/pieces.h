@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reconstruct/tiles.h"
+
+namespace loft {
+
+/// Why the contours of a piece belong together.
+enum class LinkReason : std::uint8_t {
+  overlap,    ///< they overlap in projection
+  slide,      ///< they overlap, and much more so after a shift
+  predicted,  ///< they do not overlap, but lie where a neighbouring slice lets expect them
+  nearest,    ///< they do not overlap, but are near, alike, and nothing speaks against it
+  order,      ///< a LinkOrder asked for it
+};
+
+/// What of one slice belongs to a piece.
+struct Footprint {
+  std::vector<std::uint32_t> loops;  ///< of the slice's region, by their smallest points
+  std::uint32_t parts = 0;           ///< how many of the loops are outer ones; the rest are holes
+  double area = 0;                   ///< enclosed
+  double radius = 0;                 ///< of the circle with the area that the outer loops enclose
+  cdt::Point centroid;               ///< of that area
+
+  [[nodiscard]] bool is_empty() const { return loops.empty(); }
+};
+
+/// Fills in the rest of a footprint whose loops are known. Returns whether its outer loops have
+/// the region inside: they bound a part, not a cavity. Precondition: it is not empty.
+bool measure(const Region& region, Footprint& footprint);
+
+/// A connected component of a slab's tiles: one surface between the slices, with the contours that
+/// it ends in. It is the boundary of a solid piece, or of a cavity in one. A piece with contours of
+/// one slice alone is an end: nothing of the other slice overlaps it.
+///
+/// Pieces are independent of one another: tiled by itself, as if there were no other contours, a
+/// piece has the same tiles. So it can be replaced by others that meet nothing else.
+struct Piece {
+  bool is_solid = true;  ///< false: a cavity
+  Footprint lower;
+  Footprint upper;
+  LinkReason reason = LinkReason::overlap;
+  cdt::Point shift;  ///< by which its upper contours were moved over the lower ones to be tiled
+
+  [[nodiscard]] const Footprint& footprint(Level level) const {
+    return level == Level::lower ? lower : upper;
+  }
+  [[nodiscard]] bool is_end() const { return lower.is_empty() || upper.is_empty(); }
+};
+
+/// The pieces of a slab, by their smallest contour points.
+struct Pieces {
+  std::vector<Piece> pieces;
+  std::vector<std::uint32_t> of_tile;  ///< the piece of each tile
+};
+
+/// Cost: O(tiles), a small part of what it takes to make them.
+[[nodiscard]] Pieces find_pieces(const Region& lower, const Region& upper, const TileSet& tiles);
+
+/// The area between the contours of each piece in projection, the upper ones moved by the piece's
+/// shift: the symmetric difference of its two footprints (the area of an end). Cost: O(tiles).
+[[nodiscard]] std::vector<double> differences(const Region& lower, const Region& upper,
+                                              const TileSet& tiles, const Pieces& pieces);
+
+/// Some loops of a region as a region of their own. Where they bound a cavity, turned round: its
+/// inside becomes the region's.
+class Extract {
+ public:
+  Extract(const Region& region, std::span<const std::uint32_t> loops, bool is_solid);
+
+  [[nodiscard]] const Region& region() const { return extract_; }
+  /// The index in the whole region of a point of the extract.
+  [[nodiscard]] std::uint32_t original(std::uint32_t point) const { return original_[point]; }
+
+ private:
+  Region extract_;
+  std::vector<std::uint32_t> original_;
+};
+
+/// Tiles of a part of a slab as tiles of the slab: nodes renumbered, those of a cavity turned to
+/// look the other way. Inner vertices keep their order, from the first number on.
+[[nodiscard]] TileSet embedded(TileSet tiles, const Extract& lower, const Extract& upper,
+                               std::uint32_t lower_count, std::uint32_t upper_count, bool is_solid);
+
+/// Tiles to put in the place of whole pieces.
+struct Replacement {
+  TileSet tiles;
+  Pieces pieces;                        ///< what they make
+  std::vector<std::uint32_t> replaced;  ///< the pieces that go
+};
+
+/// Puts replacements into the place of pieces, best first, as far as they meet nothing else: exact
+/// tests against all tiles that stay and all replacements before it. Returns whether any was.
+/// Cost: O(tiles + replacements), O(log n) each.
+bool replace(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
+             std::span<Replacement> replacements);
+
+/// Adds tiles behind others; inner vertices are renumbered.
+void append(TileSet& tiles, const TileSet& more, std::uint32_t contour_count);
+
+}  // namespace loft
