@@ -81,8 +81,8 @@ struct Depth {
   double depth = 0;
 };
 
-/// Pattern search (Hooke and Jeeves, 1961): to the best of eight places around, nearer by half where
-/// none is better.
+/// Pattern search (Hooke and Jeeves, 1961): to the best of eight places around, nearer by half
+/// where none is better.
 void deepen(Depth& deepest, const SignedDistance& distance) {
   const double side = distance.at(deepest.place).distance < 0 ? -1 : 1;
   constexpr double finest = 0.01;
@@ -141,7 +141,9 @@ std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const S
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
     if (!piece.is_end()) {
-      shapes[i] = SmoothPassage(slices, piece.shift);
+      // Of contours that overlap the distances tell more than a shift does.
+      const bool slides = piece.reason == LinkReason::slide;
+      shapes[i] = SmoothPassage(slices, slides ? Point() : piece.shift);
     } else if (depths[i].depth > 0) {
       shapes[i] =
           SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place, depths[i].depth);
@@ -323,8 +325,14 @@ class Smoothing {
     }
     for (std::uint32_t i = 0; i < moves_.size(); ++i) {
       Move& move = moves_[i];
-      if (move.edge[0] != none) move.start = middle(place(move.edge[0]), place(move.edge[1]));
-      tiles_.inner[i].place = along(move.start, move.share, move.way);
+      if (move.edge[0] != none)
+        move.start = middle(this->place(move.edge[0]), this->place(move.edge[1]));
+      Vec3& place = tiles_.inner[i].place;
+      place = along(move.start, move.share, move.way);
+      // Its edge has moved, too: not beyond a slice.
+      const double least = least_share * height();
+      place[2] = std::clamp(place[2], std::min(lower_.z + least, move.start[2]),
+                            std::max(upper_.z - least, move.start[2]));
     }
     return true;
   }

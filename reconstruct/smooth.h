@@ -9,15 +9,15 @@
 namespace loft {
 
 /// Bends the tiles of a slab towards the smooth surface through the slices around it (design,
-/// section 3, step 9). `lower` and `upper` are the regions that `tiles` lie between, `slices[1]` and
-/// `slices[2]` their shapes, `pieces` the tiles' pieces. A piece that was moved sideways to be linked
-/// is bent around its slanted axis.
+/// section 3, step 9). `lower` and `upper` are the regions that `tiles` lie between, `slices[1]`
+/// and `slices[2]` their shapes, `pieces` the tiles' pieces. Where parts that do not overlap were
+/// linked, the surface bends around their slanted axis.
 ///
 /// Contour vertices and edges stay as they are. Every other edge that is off the smooth surface is
 /// split at a point on it, thrice at most. The tiles stay what tile() promises, by exact test:
 /// where bent ones would meet, they are straightened until they do not.
-/// A function of the tiles and the four slices, so that an edit of a slice changes four slabs at most.
-/// Cost: O(n log n) for n tiles, in practice.
+/// A function of the tiles and the four slices, so that an edit of a slice changes four slabs at
+/// most. Cost: O(n log n) for n tiles, in practice.
 [[nodiscard]] TileSet smooth(const Region& lower, const Region& upper, const Surroundings& slices,
                              const Pieces& pieces, TileSet tiles);
 
