@@ -154,6 +154,7 @@ Json to_json(const std::vector<MeshSummary>& summaries) {
     Json part;
     part["label"] = summary.label;
     add_measures(part, summary.measures);
+    add_angles(part, summary.measures.angles);
     part["bounds"] = to_json(summary.bounds);
     json["parts"].push_back(std::move(part));
   }
@@ -163,7 +164,7 @@ Json to_json(const std::vector<MeshSummary>& summaries) {
 void print_meshes(const std::vector<MeshSummary>& summaries) {
   for (const auto& [label, measures, bounds] : summaries) {
     std::cout << "  " << (label.empty() ? "" : "label '" + label + "': ") << describe(measures)
-              << '\n';
+              << "\n  " << describe(measures.angles) << '\n';
     print_bounds(bounds);
   }
 }

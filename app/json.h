@@ -35,4 +35,12 @@ inline void add_measures(Json& json, const Measures& measures) {
   json["volume"] = measures.volume;
 }
 
+/// angles: least, percentile_5, median of the faces' smallest ones, in degrees; worst_aspect.
+inline void add_angles(Json& json, const Angles& angles) {
+  json["angles"] = {{"least", angles.smallest},
+                    {"percentile_5", angles.fifth_percentile},
+                    {"median", angles.median},
+                    {"worst_aspect", angles.worst_aspect}};
+}
+
 }  // namespace loft::app

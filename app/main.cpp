@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -56,6 +57,43 @@ std::string complain_of_unit(const std::string& unit) {
   return "'" + unit + "' is no unit; known are " + std::string(unit_names);
 }
 
+/// A check for CLI11, as above.
+std::string complain_of_length(const std::string& text) {
+  double length = 0;
+  if (CLI::detail::lexical_cast(text, length) && std::isfinite(length) && length > 0) return {};
+  return "'" + text + "' is no length; give a number above 0, in the unit of the input";
+}
+
+std::string complain_of_tolerance(const std::string& text) {
+  double tolerance = 0;
+  if (CLI::detail::lexical_cast(text, tolerance) && std::isfinite(tolerance) && tolerance >= 0)
+    return {};
+  return "'" + text + "' is no tolerance; give 0 or a number above, in the unit of the input";
+}
+
+/// Options for smaller or fewer triangles.
+void add_triangle_options(CLI::App& sub, loft::Options& options) {
+  CLI::Option* max_edge =
+      sub.add_option("--max-edge", options.max_edge,
+                     "Split edges between slices that are longer; contour edges stay")
+          ->type_name("LENGTH")
+          ->check(CLI::Validator(complain_of_length, ""));
+  CLI::Option* target_edge =
+      sub.add_option("--target-edge", options.target_edge,
+                     "Bring edges between slices near this length, with well-shaped triangles; "
+                     "contour edges stay")
+          ->type_name("LENGTH")
+          ->check(CLI::Validator(complain_of_length, ""));
+  CLI::Option* simplify =
+      sub.add_option("--simplify", options.simplify,
+                     "Remove vertices as long as the surface, contours included, moves by no more "
+                     "than this; 0 removes only what changes nothing")
+          ->type_name("TOLERANCE")
+          ->check(CLI::Validator(complain_of_tolerance, ""));
+  max_edge->excludes(target_edge)->excludes(simplify);
+  target_edge->excludes(simplify);
+}
+
 /// Adds `loft reconstruct`; the command is ready when the line has been parsed.
 CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
@@ -108,6 +146,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   sub->add_flag_callback("--in-memory", memory(Memory::in_memory),
                          "Read the stack as a whole, whatever its size")
       ->excludes(out);
+  add_triangle_options(*sub, command.options);
   sub->add_option_function<std::string>(
          "--unit",
          [&command](const std::string& unit) { command.metres_per_unit = *metres_per_unit(unit); },

@@ -81,9 +81,12 @@ class Overview {
 bool is_out_of_core(const ReconstructCommand& command) {
   if (command.memory == Memory::out_of_core && !is_one_ply(command))
     throw UsageError("--out-of-core writes one PLY file; give one output OUT.ply");
+  if (command.memory == Memory::out_of_core && command.options.simplify)
+    throw UsageError("--simplify needs the whole surface in memory; leave out --out-of-core");
   if (command.memory != Memory::by_size) return command.memory == Memory::out_of_core;
   const bool reads_files = std::ranges::find(command.inputs, path("-")) == command.inputs.end();
-  return is_one_ply(command) && reads_files && input_size(command) > most_in_memory;
+  return is_one_ply(command) && reads_files && !command.options.simplify &&
+         input_size(command) > most_in_memory;
 }
 
 void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report) {

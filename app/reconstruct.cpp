@@ -31,13 +31,17 @@ double overall(Stage stage, double fraction) {
     case Stage::clean:
       return 0.1 * fraction;
     case Stage::tile:
-      return 0.1 + 0.4 * fraction;
+      return 0.1 + 0.3 * fraction;
     case Stage::smooth:
-      return 0.5 + 0.3 * fraction;
+      return 0.4 + 0.2 * fraction;
+    case Stage::refine:
+      return 0.6 + 0.2 * fraction;
     case Stage::sew:
+      return 0.8 + 0.1 * fraction;
+    case Stage::simplify:
       break;
   }
-  return 0.8 + 0.2 * fraction;
+  return 0.9 + 0.1 * fraction;
 }
 
 /// Follows a reconstruction: draws the bar, times the stages, stops it after an interrupt.
@@ -141,6 +145,9 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   // File names only: the same stack gives the same bytes wherever it lies.
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
   options.settings = {{"fill", name(command.options.fill)}, {"cap", name(command.options.cap)}};
+  if (command.options.smooth) options.settings["smooth"] = "true";
+  for (const auto& [setting, length] : lengths(command.options))
+    options.settings[setting] = exact(length);
   return options;
 }
 

@@ -2,6 +2,8 @@
 #include "app/report.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -94,10 +96,14 @@ const char* name(Stage stage) {
       return "tile";
     case Stage::smooth:
       return "smooth";
+    case Stage::refine:
+      return "refine";
     case Stage::sew:
+      return "sew";
+    case Stage::simplify:
       break;
   }
-  return "sew";
+  return "simplify";
 }
 
 namespace {
@@ -136,6 +142,7 @@ Json to_json(const PartReport& part) {
   json["label"] = part.label;
   add_size(json, part.input);
   add_measures(json, part.measures);
+  add_angles(json, part.measures.angles);
   json["seconds"] = part.seconds;
   const auto& [contour, cleaning, crossing, steiner] = part.vertices_of_kind;
   json["vertices_of_kind"] = {
@@ -174,7 +181,10 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"keyhole_width",
        command.options.keyhole_width ? Json(*command.options.keyhole_width) : Json()},
       {"cap", name(command.options.cap)},
+      {"smooth", command.options.smooth},
       {"metres_per_unit", command.metres_per_unit}};
+  for (const auto& [setting, length] : lengths(command.options))
+    json["options"][setting] = length;
   json["out_of_core"] = report.is_out_of_core;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
@@ -195,6 +205,28 @@ std::string rounded(double number) {
   text.precision(4);
   text << number;
   return text.str();
+}
+
+std::string exact(double number) {
+  std::array<char, 32> text{};
+  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
+}
+
+std::vector<std::pair<std::string, double>> lengths(const Options& options) {
+  std::vector<std::pair<std::string, double>> result;
+  const auto add = [&](const char* name, const std::optional<double>& length) {
+    if (length) result.emplace_back(name, *length);
+  };
+  add("max_edge", options.max_edge);
+  add("target_edge", options.target_edge);
+  add("simplify", options.simplify);
+  return result;
+}
+
+std::string describe(const Angles& angles) {
+  return "smallest angles: least " + rounded(angles.smallest) + ", 5th percentile " +
+         rounded(angles.fifth_percentile) + ", median " + rounded(angles.median) +
+         " degrees; worst aspect " + rounded(angles.worst_aspect);
 }
 
 std::string describe(const Measures& measures) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands.h"
@@ -53,7 +54,7 @@ struct PartReport {
   Measures measures;
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
   std::vector<Defect> repairs;
-  std::map<std::string, double> seconds;  ///< of each stage: `clean`, `tile`, `sew`
+  std::map<std::string, double> seconds;  ///< of each stage, by name(Stage)
 };
 
 [[nodiscard]] std::array<std::size_t, 4> count_kinds(const Surface& surface);
@@ -62,15 +63,19 @@ struct PartReport {
 ///
 ///     schema "loft-reconstruct", schema_version 1, loft (version)
 ///     inputs, outputs      file names
-///     options              fill, keyhole_width (null: by default), cap, metres_per_unit
+///     options              fill, keyhole_width (null: by default), cap, smooth, metres_per_unit;
+///                          max_edge, target_edge, simplify if given
 ///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
-///     seconds              of each stage: read, clean, tile, sew, write, total
+///     seconds              of each stage: read, clean, tile, smooth, refine, sew, simplify (those asked for),
+///                          write, total
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
-///                          components, genus, area, volume, seconds, vertices_of_kind (contour,
-///                          cleaning, crossing, steiner), cleaning (area; counts by kind; slices: a
-///                          list of slice, z, repairs, area), repairs (a list)
+///                          components, genus, area, volume, angles, seconds, vertices_of_kind
+///                          (contour, cleaning, crossing, steiner), cleaning (area; counts by kind;
+///                          slices: a list of slice, z, repairs, area), repairs (a list)
 ///
+/// angles: of the smallest one of each triangle, in degrees, the least, percentile_5 and median;
+/// worst_aspect, the longest side over the height on it, 1 where all sides are equal.
 /// A repair: kind, slice (index in the input), z, contour, point, place [x, y] (null where not
 /// known), area (that it decided: see Defect), message. Lengths in the unit of the input. Later
 /// versions of the schema may add keys.
@@ -89,6 +94,13 @@ struct Report {
 [[nodiscard]] std::string rounded(double number);
 /// `1,234 triangles, 619 vertices, 1 component, genus 0, area 12.3, volume 4.56`
 [[nodiscard]] std::string describe(const Measures& measures);
+/// `smallest angles: least 1.2, 5th percentile 12.3, median 34.5 degrees; worst aspect 56.7`
+[[nodiscard]] std::string describe(const Angles& angles);
+
+/// The shortest text that reads back as the same number.
+[[nodiscard]] std::string exact(double number);
+/// The options that are lengths, as far as set, by their names in files and reports.
+[[nodiscard]] std::vector<std::pair<std::string, double>> lengths(const Options& options);
 
 [[nodiscard]] const char* name(Fill fill);
 [[nodiscard]] const char* name(Cap cap);

@@ -5,22 +5,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <span>
 #include <vector>
 
 #include "reconstruct/adjacency.h"
+#include "reconstruct/triangle_shape.h"
+#include "reconstruct/vec3.h"
 
 namespace loft {
 
 namespace {
-
-Vec3 minus(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 std::size_t count_used_vertices(const Mesh& mesh, std::span<const std::uint32_t> faces) {
   std::vector<bool> is_used(mesh.points.size(), false);
@@ -92,11 +87,32 @@ int genus(const Measures& m, std::size_t rims) {
       (2 * static_cast<std::int64_t>(m.components) - euler - static_cast<std::int64_t>(rims)) / 2);
 }
 
-void FaceSum::add(const Vec3& a, const Vec3& b, const Vec3& c) {
+void FaceSum::add(const Corners& triangle) {
+  const auto& [a, b, c] = triangle;
   if (!origin_) origin_ = a;
   const Vec3 normal = cross(minus(b, a), minus(c, a));
   area_ += std::sqrt(dot(normal, normal)) / 2;
   volume_ += dot(normal, minus(a, *origin_)) / 6;
+}
+
+void AngleCount::add(const Corners& triangle) {
+  const double angle = std::asin(smallest_sine(triangle)) * 180 / std::numbers::pi;
+  smallest_ = std::min(smallest_, angle);
+  worst_aspect_ = std::max(worst_aspect_, aspect(triangle));
+  ++counts_[std::min(static_cast<std::size_t>(angle * bins_a_degree), counts_.size() - 1)];
+  ++count_;
+}
+
+/// The middle of the bin that the triangle of that rank is in.
+double AngleCount::angle_of(std::size_t rank) const {
+  std::size_t bin = 0;
+  for (std::size_t seen = counts_[0]; seen <= rank; seen += counts_[bin]) ++bin;
+  return (static_cast<double>(bin) + 0.5) / bins_a_degree;
+}
+
+Angles AngleCount::angles() const {
+  if (count_ == 0) return {};
+  return {smallest_, angle_of(count_ / 20), angle_of(count_ / 2), worst_aspect_};
 }
 
 Measures measure(const Mesh& mesh) {
@@ -109,12 +125,16 @@ Measures measure(const Mesh& mesh) {
   result.components = count_components(mesh, faces, edges);
   result.genus = genus(result, count_rims(mesh, edges));
   FaceSum sum;
+  AngleCount angles;
   for (const std::uint32_t face : faces) {
     const auto [a, b, c] = mesh.faces[face];
-    sum.add(mesh.points[a], mesh.points[b], mesh.points[c]);
+    const Corners corners{mesh.points[a], mesh.points[b], mesh.points[c]};
+    sum.add(corners);
+    angles.add(corners);
   }
   result.area = sum.area();
   result.volume = sum.volume();
+  result.angles = angles.angles();
   return result;
 }
 
@@ -126,18 +146,21 @@ Measures measure(const Surface& surface) {
   result.components = count_components(surface);
   result.genus = genus(result, count_rims(surface));
   FaceSum sum;
+  AngleCount angles;
   for (const auto face : surface.faces()) {
-    std::array<Vec3, 3> corners;
+    Corners corners;
     auto h = surface.halfedge_handle(face);
     for (Vec3& corner : corners) {
       const auto& p = surface.point(surface.to_vertex_handle(h));
       corner = {p[0], p[1], p[2]};
       h = surface.next_halfedge_handle(h);
     }
-    sum.add(corners[0], corners[1], corners[2]);
+    sum.add(corners);
+    angles.add(corners);
   }
   result.area = sum.area();
   result.volume = sum.volume();
+  result.angles = angles.angles();
   return result;
 }
 

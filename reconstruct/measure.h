@@ -3,11 +3,22 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "reconstruct/mesh.h"
+#include "reconstruct/predicates.h"
 #include "reconstruct/surface.h"
 
 namespace loft {
+
+/// How well shaped the faces of a mesh are. Angles in degrees: each face counts by its smallest one,
+/// which is 60 at best. All 0 without faces.
+struct Angles {
+  double smallest = 0;
+  double fifth_percentile = 0;  ///< one face in 20 has a smaller one; to 0.01 degrees
+  double median = 0;            ///< to 0.01 degrees
+  double worst_aspect = 0;  ///< longest side over the height on it, 1 at best; see aspect()
+};
 
 /// Size and shape of a mesh. Lengths in its own units.
 struct Measures {
@@ -19,13 +30,14 @@ struct Measures {
   int genus = 0;
   double area = 0;
   double volume = 0;  ///< signed: positive if faces look outwards
+  Angles angles;
 };
 
 /// Adds up area and volume face by face, seen from the first corner that is added, so that the
 /// place of a mesh costs no accuracy.
 class FaceSum {
  public:
-  void add(const Vec3& a, const Vec3& b, const Vec3& c);
+  void add(const Corners& triangle);
   [[nodiscard]] double area() const { return area_; }
   [[nodiscard]] double volume() const { return volume_; }
 
@@ -33,6 +45,24 @@ class FaceSum {
   std::optional<Vec3> origin_;
   double area_ = 0;
   double volume_ = 0;
+};
+
+/// Counts the smallest angles of triangles, in bins so narrow that percentiles are right to a
+/// hundredth of a degree.
+class AngleCount {
+ public:
+  void add(const Corners& triangle);
+  [[nodiscard]] Angles angles() const;
+
+ private:
+  static constexpr double bins_a_degree = 100;
+
+  [[nodiscard]] double angle_of(std::size_t rank) const;
+
+  std::vector<std::size_t> counts_ = std::vector<std::size_t>(6001);
+  std::size_t count_ = 0;
+  double smallest_ = 60;
+  double worst_aspect_ = 0;
 };
 
 /// The genus by Euler's formula, from the counts of everything else; `rims` closed chains of edges

@@ -47,6 +47,14 @@ struct Options {
   std::optional<std::string> label = {};
   /// Threads that work at the same time; 0: as many as the machine has. Changes nothing but time.
   unsigned threads = 0;
+  /// Splits inner edges of slabs that are longer: see split_long_edges(). Positive.
+  std::optional<double> max_edge = {};
+  /// Brings inner edges of slabs near that length, with better angles: see even_out_edges().
+  /// Positive; not with max_edge.
+  std::optional<double> target_edge = {};
+  /// Removes vertices as long as the surface moves by no more than that: see simplify(). Not
+  /// negative; not with max_edge or target_edge.
+  std::optional<double> simplify = {};
 };
 
 }  // namespace loft

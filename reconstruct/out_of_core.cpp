@@ -5,12 +5,14 @@
 #include <deque>
 #include <iterator>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "reconstruct/caps.h"
 #include "reconstruct/heights.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/reconstruct.h"
+#include "reconstruct/refine.h"
 #include "reconstruct/sewing.h"
 #include "reconstruct/smooth.h"
 #include "reconstruct/survey.h"
@@ -167,11 +169,13 @@ class Work {
 
   [[nodiscard]] TileSet make_slab(std::size_t i, TileWorkspace& workspace) const {
     TileSet tiles = tile(regions_[i], regions_[i + 1], workspace);
-    if (!options_.smooth) return tiles;
-    Surroundings around{};
-    for (std::size_t k = 0; k < around.size(); ++k)
-      if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_[i + k - 1 - first_shape_];
-    return smooth(regions_[i], regions_[i + 1], around, std::move(tiles));
+    if (options_.smooth) {
+      Surroundings around{};
+      for (std::size_t k = 0; k < around.size(); ++k)
+        if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_[i + k - 1 - first_shape_];
+      tiles = smooth(regions_[i], regions_[i + 1], around, std::move(tiles));
+    }
+    return refine(regions_[i], regions_[i + 1], std::move(tiles), options_);
   }
 
   /// What bending wants to know of the regions that are new.
@@ -315,6 +319,7 @@ class Work {
 
 OutOfCoreReport reconstruct_out_of_core(const SliceSource& source, const Options& options,
                                         SurfaceSink& sink, const Progress& progress) {
+  if (options.simplify) throw std::invalid_argument("out of core nothing can be simplified");
   return Work(source, options, sink).run(progress);
 }
 

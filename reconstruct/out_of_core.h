@@ -44,7 +44,8 @@ struct OutOfCoreReport {
 /// In memory are a few slices and slabs, the repairs, and the vertices and faces that only parts
 /// which touch need. Throws as reconstruct() does; but of slices with unusable numbers only
 /// those read until then are listed: call find_unusable() beforehand to have all. What the sink
-/// got is of no use then.
+/// got is of no use then. Throws std::invalid_argument for Options::simplify, which needs the whole
+/// surface.
 /// Progress has one stage, Stage::tile. Cost: O(n log n).
 [[nodiscard]] OutOfCoreReport reconstruct_out_of_core(const SliceSource& source,
                                                       const Options& options, SurfaceSink& sink,

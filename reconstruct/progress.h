@@ -5,8 +5,8 @@
 
 namespace loft {
 
-/// The stages of a reconstruction, in their order; smooth only if asked for.
-enum class Stage { clean, tile, smooth, sew };
+/// The stages of a reconstruction, in their order; smooth, refine and simplify only if asked for.
+enum class Stage { clean, tile, smooth, refine, sew, simplify };
 
 /// Called as a reconstruction goes on: the stage and the finished fraction of it, from 0 to 1.
 /// Each stage reports 0 when it begins. Return false to cancel: reconstruct() then throws

@@ -10,8 +10,10 @@
 #include "reconstruct/heights.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/parallel.h"
+#include "reconstruct/refine.h"
 #include "reconstruct/region.h"
 #include "reconstruct/sew.h"
+#include "reconstruct/simplify.h"
 #include "reconstruct/smooth.h"
 #include "reconstruct/tiles.h"
 
@@ -130,6 +132,15 @@ void smooth_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
   });
 }
 
+void refine_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
+                const Options& options, const Progress& progress) {
+  Reporter reporter(progress, Stage::refine, slabs.size());
+  for_each_index(slabs.size(), options.threads, [&](std::size_t i, unsigned) {
+    slabs[i] = refine(regions[i], regions[i + 1], std::move(slabs[i]), options);
+    reporter.add_step();
+  });
+}
+
 void check_enough(std::span<const Region> regions) {
   const auto is_filled = [](const Region& region) { return !region.is_empty(); };
   if (std::ranges::count_if(regions, is_filled) >= 2) return;
@@ -151,6 +162,7 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   if (options.cap == Cap::dome) add_beyond_ends(regions);
   auto slabs = tile_all(regions, options.threads, progress);
   if (options.smooth) smooth_all(regions, slabs, options.threads, progress);
+  if (options.max_edge || options.target_edge) refine_all(regions, slabs, options, progress);
   report_unlinked(regions, slabs, repairs);
   std::ranges::stable_sort(repairs, {}, &Defect::z);
   Reporter sewing(progress, Stage::sew, 1);
@@ -158,6 +170,11 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& options
   Reconstruction result{sew(regions, std::move(slabs), options.cap, options.threads),
                         std::move(repairs)};
   sewing.add_step();
+  if (options.simplify) {
+    Reporter simplifying(progress, Stage::simplify, 1);
+    simplify(result.surface, *options.simplify);
+    simplifying.add_step();
+  }
   return result;
 }
 

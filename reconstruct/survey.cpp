@@ -26,7 +26,8 @@ void Survey::add_vertices(std::span<const SurfaceVertex> vertices) {
 
 void Survey::add_face(const std::array<Vec3, 3>& corners) {
   ++measures_.faces;
-  sum_.add(corners[0], corners[1], corners[2]);
+  sum_.add(corners);
+  angles_.add(corners);
 }
 
 void Survey::connect(const Sewing& sewing, std::uint32_t layer) {
@@ -59,6 +60,7 @@ Measures Survey::measures() {
   measures_.genus = genus(measures_, rim_count_);
   measures_.area = sum_.area();
   measures_.volume = sum_.volume();
+  measures_.angles = angles_.angles();
   return measures_;
 }
 

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "tests/reconstruct/shapes.h"
@@ -70,6 +71,40 @@ TEST(Measure, CountsTheHandlesOfAnOpenSurface) {
   open_torus.faces.pop_back();
   EXPECT_EQ(measure(open_torus).genus, 1);
   EXPECT_EQ(measure(open_torus + tube).genus, 1);
+}
+
+TEST(Measure, TellsTheAnglesOfTriangles) {
+  const Angles cubed = measure(cube({1, 2, 3}, 2)).angles;
+  EXPECT_DOUBLE_EQ(cubed.smallest, 45);
+  EXPECT_NEAR(cubed.fifth_percentile, 45, 0.01);
+  EXPECT_NEAR(cubed.median, 45, 0.01);
+  EXPECT_DOUBLE_EQ(cubed.worst_aspect, std::sqrt(3));
+  const double high = std::sqrt(0.75);
+  const Mesh even{{{0, 0, 7}, {1, 0, 7}, {0.5, high, 7}}, {{0, 1, 2}}};
+  EXPECT_NEAR(measure(even).angles.smallest, 60, 1e-12);
+  EXPECT_NEAR(measure(even).angles.worst_aspect, 1, 1e-12);
+  EXPECT_EQ(measure(Mesh{}).angles.median, 0);
+}
+
+TEST(Measure, AnglesArePercentilesOfTriangles) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < 40; ++i) {  // angles of 1 to 40 degrees at the origin
+    const double angle = (i + 1) * std::numbers::pi / 180;
+    const auto n = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(),
+                       {{0, 0, 0}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}});
+    mesh.faces.push_back({n, n + 1, n + 2});
+  }
+  const Angles angles = measure(mesh).angles;
+  EXPECT_NEAR(angles.smallest, 1, 1e-12);
+  EXPECT_NEAR(angles.fifth_percentile, 3, 0.01);
+  EXPECT_NEAR(angles.median, 21, 0.01);
+}
+
+TEST(Measure, ADegenerateTriangleHasNoAngle) {
+  const Mesh flat{{{0, 0, 0}, {1, 1, 1}, {3, 3, 3}}, {{0, 1, 2}}};
+  EXPECT_EQ(measure(flat).angles.smallest, 0);
+  EXPECT_TRUE(std::isinf(measure(flat).angles.worst_aspect));
 }
 
 TEST(Measure, CountsOnlyVerticesThatFacesUse) {
