@@ -134,7 +134,6 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "Threads that work at the same time; 0 (default): as many as the machine has")
       ->type_name("N")
       ->check(CLI::Range(0U, 1024U));
-  add_triangle_options(*sub, command.options);
   const auto memory = [&command](Memory choice) {
     return [&command, choice] { command.memory = choice; };
   };
@@ -167,6 +166,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "Contours to join or to keep apart: a line {\"from\": [slice, contour], "
                   "\"to\": [slice, contour], \"link\": true or false} each")
       ->type_name("FILE");
+  add_triangle_options(*sub, command.options);
   sub->add_option_function<std::string>(
          "--unit",
          [&command](const std::string& unit) { command.metres_per_unit = *metres_per_unit(unit); },

@@ -87,7 +87,8 @@ bool is_out_of_core(const ReconstructCommand& command) {
     throw UsageError("--links needs the whole stack in memory; leave out --out-of-core");
   if (command.memory != Memory::by_size) return command.memory == Memory::out_of_core;
   const bool reads_files = std::ranges::find(command.inputs, path("-")) == command.inputs.end();
-  return is_one_ply(command) && !command.options.simplify && !command.links && reads_files && input_size(command) > most_in_memory;
+  return is_one_ply(command) && reads_files && !command.options.simplify && !command.links &&
+         input_size(command) > most_in_memory;
 }
 
 void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report) {

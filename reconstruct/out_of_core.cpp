@@ -5,6 +5,7 @@
 #include <deque>
 #include <iterator>
 #include <span>
+#include <stdexcept>
 #include <utility>
 
 #include "reconstruct/caps.h"
@@ -334,6 +335,8 @@ class Work {
 
 OutOfCoreReport reconstruct_out_of_core(const SliceSource& source, const Options& options,
                                         SurfaceSink& sink, const Progress& progress) {
+  if (options.simplify || !options.links.empty())
+    throw std::invalid_argument("simplify and links need the whole stack");
   return Work(source, options, sink).run(progress);
 }
 

@@ -44,8 +44,8 @@ struct OutOfCoreReport {
 /// In memory are a few slices and slabs, the repairs, and the vertices and faces that only parts
 /// which touch need. Throws as reconstruct() does; but of slices with unusable numbers only
 /// those read until then are listed: call find_unusable() beforehand to have all. What the sink
-/// got is of no use then.
-/// Options::links is not looked at: orders need the whole stack.
+/// got is of no use then. Throws std::invalid_argument for Options::simplify and Options::links,
+/// which need the whole stack.
 /// Progress has one stage, Stage::tile. Cost: O(n log n).
 [[nodiscard]] OutOfCoreReport reconstruct_out_of_core(const SliceSource& source,
                                                       const Options& options, SurfaceSink& sink,

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 namespace loft {
@@ -61,18 +62,21 @@ unsigned thread_count(unsigned wanted) {
 
 void for_each_index(std::size_t count, unsigned threads,
                     const std::function<void(std::size_t, unsigned)>& body) {
-  const auto workers = static_cast<unsigned>(std::min<std::size_t>(thread_count(threads), count));
+  const auto workers = static_cast<int>(std::min<std::size_t>(thread_count(threads), count));
   if (workers <= 1) {
     for (std::size_t i = 0; i < count; ++i) body(i, 0);
     return;
   }
   Work work(count, body);
   // More threads than processors are refused, unless it is said so.
-  const tbb::global_control allowed(tbb::global_control::max_allowed_parallelism, workers);
-  tbb::task_arena arena(static_cast<int>(workers));
+  std::optional<tbb::global_control> allowed;
+  if (workers > tbb::this_task_arena::max_concurrency())
+    allowed.emplace(tbb::global_control::max_allowed_parallelism, workers);
+  tbb::task_arena arena(workers);
   arena.execute([&] {
     tbb::parallel_for(
-        0U, workers, [&](unsigned worker) { work.run(worker); }, tbb::simple_partitioner());
+        0, workers, [&](int worker) { work.run(static_cast<unsigned>(worker)); },
+        tbb::simple_partitioner());
   });
   work.rethrow();
 }

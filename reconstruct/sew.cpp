@@ -33,6 +33,28 @@ Sewing sew_layers(std::span<const Region> regions, std::vector<TileSet> slabs, C
   return sewing;
 }
 
+struct Counts {
+  std::size_t vertices = 0;
+  std::size_t edges = 0;
+  std::size_t faces = 0;
+};
+
+/// How large the surface will be, but for what sewing adds where parts touch, for caps of regions
+/// with holes, and for rims: few edges and faces.
+Counts plain_counts(std::span<const Region> regions, std::span<const TileSet> slabs, Cap cap) {
+  Counts counts;
+  for (const Region& region : regions) counts.vertices += region.points.size();
+  for (const TileSet& slab : slabs) {
+    counts.vertices += slab.inner.size();
+    counts.faces += slab.tiles.size();
+  }
+  if (cap == Cap::flat)
+    for (const Region* end : {&regions.front(), &regions.back()})
+      counts.faces += end->points.size() - std::min<std::size_t>(2, end->points.size());
+  counts.edges = counts.faces * 3 / 2;
+  return counts;
+}
+
 /// Fills the mesh directly: mates are known, so that nothing has to be searched for and nothing
 /// can be refused. Layers are written in parallel, each thread to elements of its own.
 class Assembly {
@@ -210,8 +232,17 @@ class Assembly {
 
 Surface sew(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
             unsigned threads) {
-  const Sewing sewing = sew_layers(regions, std::move(slabs), cap, threads);
   Surface surface;  // filled in place: moving one would copy it
+  const Counts counts = plain_counts(regions, slabs, cap);
+  Sewing sewing;
+  // That much new memory takes about as long as sewing: both at once.
+  for_each_index(2, threads, [&](std::size_t i, unsigned) {
+    if (i == 0) {
+      surface.resize(counts.vertices, counts.edges, counts.faces);
+    } else {
+      sewing = sew_layers(regions, std::move(slabs), cap, threads);
+    }
+  });
   Assembly(sewing, surface, threads).run();
   return surface;
 }

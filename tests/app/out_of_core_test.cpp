@@ -36,8 +36,8 @@ TEST(OutOfCore, WritesTheSameBytesAndReport) {
       folder.write("a.ndjson", "\xEF\xBB\xBF" + barrel(slice(2, ring(10) + ", [[1, 1]]"))));
   static_cast<void>(folder.write(
       "b.ndjson", "\n" + slice(2.5, ring(5) + "," + ring(5, 8, 8)) + "\r\n" + slice(-1, ring(2))));
-  for (const std::string options :
-       {"", " --threads 1", " --threads 3 --cap dome", " --smooth", " --fill nonzero --cap open"})
+  for (const std::string options : {"", " --threads 1", " --threads 3 --cap dome", " --smooth",
+                                    " --fill nonzero --cap open", " --target-edge 0.7"})
     expect_same(folder, "a.ndjson b.ndjson" + options);
 }
 
@@ -80,6 +80,10 @@ TEST(OutOfCore, SaysWhatItCannotDo) {
       << formats.err;
   EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply -o b.ply --out-of-core").exit_code, 2);
   EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --out-of-core --in-memory").exit_code, 2);
+  const Outcome simplify =
+      run(folder, "reconstruct in.ndjson -o a.ply --out-of-core --simplify 0.1");
+  EXPECT_EQ(simplify.exit_code, 2);
+  EXPECT_NE(simplify.err.find("--simplify"), std::string::npos) << simplify.err;
   const Outcome input = run(folder, "reconstruct - -o a.ply --out-of-core");
   EXPECT_EQ(input.exit_code, 3);
   EXPECT_NE(input.err.find("standard input"), std::string::npos) << input.err;
