@@ -141,9 +141,7 @@ std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const S
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
     if (!piece.is_end()) {
-      // Of contours that overlap the distances tell more than a shift does.
-      const bool slides = piece.reason == LinkReason::slide;
-      shapes[i] = SmoothPassage(slices, slides ? Point() : piece.shift);
+      shapes[i] = SmoothPassage(slices, {-piece.shift.x, -piece.shift.y});
     } else if (depths[i].depth > 0) {
       shapes[i] =
           SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place, depths[i].depth);

@@ -138,6 +138,17 @@ std::map<std::uint32_t, std::set<std::set<OpenMesh::Vec3d>>> slabs(const Surface
   return found;
 }
 
+// Discs that do not overlap their neighbours, one upon the other but for a shear.
+TEST(Smooth, ASlantedRodStaysStraight) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 6; ++i)
+    slices.push_back({static_cast<double>(i), {stacks::circle(40, 1, {1.5 * i, 0.5 * i})}});
+  const Surface bent = make(slices, true);
+  EXPECT_TRUE(check(bent).empty());
+  EXPECT_NEAR(volume(bent), 5 * 20 * std::sin(2 * pi / 40), 1e-6);
+  EXPECT_EQ(bent.n_vertices(), 240);
+}
+
 TEST(Smooth, AnEditOfASliceChangesFourSlabs) {
   auto slices = stacks::sphere(12, 50);
   const auto before = slabs(make(slices, true));
