@@ -190,7 +190,7 @@ Scale scale(const Region& lower, const Region& upper) {
     }
   }
   const double size = box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  return {std::max(size * 0x1p-18, farthest * 0x1p-34),
+  return {std::max(size * 0x1p-18, farthest * 0x1p-50),
           std::max(size * 0x1p-28, farthest * 0x1p-44)};
 }
 
