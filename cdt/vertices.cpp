@@ -33,7 +33,8 @@ void shuffle(std::span<std::size_t> indices) {
 /// Coarse to fine: every 2^k-th point, then those half way between, each located from its
 /// neighbour. Along a curve, in the order of the curve, most flips would be undone by later ones.
 /// Where that does not help, as in a star whose tips are all inserted before what is between them,
-/// the rest of each pass is inserted in random order: expected O(n log n) flips, whatever the curve.
+/// the rest of each pass is inserted in random order: expected O(n log n) flips, whatever the
+/// curve.
 void Triangulation::insert_points(std::span<const Point> points) {
   const std::size_t n = points.size();
   inserted_.resize(n);

@@ -141,8 +141,7 @@ bool angles_meet(const FlatTriangle& p, const FlatTriangle& q) {
 
 /// For triangles whose first `common` corners are the same, seen along an axis from which neither
 /// is degenerate: whether they meet there.
-bool seen_triangles_meet(const Corners& p, const Corners& q, std::size_t common,
-                         std::size_t axis) {
+bool seen_triangles_meet(const Corners& p, const Corners& q, std::size_t common, std::size_t axis) {
   if (common == 2) {
     return orient(without(axis, p)) == orient(without(axis, q));  // on the same side of the edge
   }

@@ -196,8 +196,7 @@ Scale scale(const Region& lower, const Region& upper) {
 
 /// Whether two tiles meet elsewhere than in common corners and edges (exact); also true if no more
 /// pairs may be tested.
-bool meet(const Region& lower, const Region& upper, const TileSet& tiles,
-          std::size_t& pairs_left) {
+bool meet(const Region& lower, const Region& upper, const TileSet& tiles, std::size_t& pairs_left) {
   std::vector<Corners> corners;
   std::vector<Box3> boxes;
   for (const Tile& tile : tiles.tiles) {
