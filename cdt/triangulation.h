@@ -390,6 +390,7 @@ class Triangulation {
 
   // vertices.cpp
   void insert_points(std::span<const Point> points);
+  void insert_pass(std::span<const Point> points, std::size_t stride);
   [[nodiscard]] std::vector<VertexId> insert_in_rounds(std::span<const Point> points);
   VertexId insert_near(Point point, EdgeId hint);
   [[nodiscard]] VertexId merge(Location& place, Point point) const;
@@ -532,9 +533,10 @@ class Triangulation {
   Locator locator_;
   EdgeId last_;
   std::size_t vertex_count_ = 0;
-  VertexId reserved_;    // the number of the next vertex, where that is not the first free one
-  VertexId only_;        // the only vertex, while there is just one
-  bool is_flat_ = true;  // no finite triangle yet: all vertices in one line
+  VertexId reserved_;      // the number of the next vertex, where that is not the first free one
+  VertexId only_;          // the only vertex, while there is just one
+  std::size_t flips_ = 0;  // since insert_points() began
+  bool is_flat_ = true;    // no finite triangle yet: all vertices in one line
   bool is_recording_ = false;
   Changes changes_;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <bit>
+#include <cstdint>
 #include <stdexcept>
 #include <utility>
 
@@ -15,19 +16,46 @@ namespace {
 
 bool is_between(Point a, Point b, Point p) { return a < b ? a < p && p < b : b < p && p < a; }
 
+/// Flips for each vertex, all in all, that are still a usual effort: three or four are the rule.
+constexpr std::size_t usual_flips = 16;
+
+/// Puts indices into an order that no curve can foresee, the same every time (Fisher, Yates, 1938).
+void shuffle(std::span<std::size_t> indices) {
+  std::uint64_t dice = 0x9e37'79b9'7f4a'7c15;
+  for (std::size_t n = indices.size(); n > 1; --n) {
+    dice = dice * 6364136223846793005 + 1442695040888963407;
+    std::swap(indices[n - 1], indices[(dice >> 33) % n]);
+  }
+}
+
 }  // namespace
 
 /// Coarse to fine: every 2^k-th point, then those half way between, each located from its
 /// neighbour. Along a curve, in the order of the curve, most flips would be undone by later ones.
+/// Where that does not help, as in a star whose tips are all inserted before what is between them,
+/// the rest of each pass is inserted in random order: expected O(n log n) flips, whatever the
+/// curve.
 void Triangulation::insert_points(std::span<const Point> points) {
   const std::size_t n = points.size();
   inserted_.resize(n);
   if (locator_.is_outgrown(vertex_count(), points[0])) locator_.lay_out(points_, vertex_count());
   inserted_[0] = insert_near(points[0], hint_for(points[0]));
-  for (std::size_t stride = std::bit_floor(n); stride > 0; stride /= 2)
-    for (std::size_t i = stride; i < n; i += 2 * stride)
-      inserted_[i] = insert_near(points[i], edge(inserted_[i - stride]));
+  flips_ = 0;
+  for (std::size_t stride = std::bit_floor(n); stride > 0; stride /= 2) insert_pass(points, stride);
   for (const VertexId v : inserted_) ++uses_[v.index()];
+}
+
+/// The points half way between those that are `2 * stride` apart, which are there already.
+void Triangulation::insert_pass(std::span<const Point> points, std::size_t stride) {
+  const auto insert = [&](std::size_t i) {
+    inserted_[i] = insert_near(points[i], edge(inserted_[i - stride]));
+  };
+  std::size_t i = stride;
+  for (; i < points.size() && flips_ <= usual_flips * vertex_count(); i += 2 * stride) insert(i);
+  std::vector<std::size_t> rest;
+  for (; i < points.size(); i += 2 * stride) rest.push_back(i);
+  shuffle(rest);
+  for (const std::size_t k : rest) insert(k);
 }
 
 TriangleId Triangulation::new_triangle() {
@@ -355,6 +383,7 @@ void Triangulation::flip_away(EdgeId e, VertexId v, VertexId d) {
   attach(edge(u, 0), db);
   attach(edge(u, 1), bv);
   join(edge(t, 1), edge(u, 2));
+  ++flips_;
   vertex_edges_[a.index()] = edge(t, 0);
   vertex_edges_[b.index()] = edge(u, 1);
   vertex_edges_[d.index()] = edge(u, 0);

@@ -25,6 +25,9 @@ struct Box3 {
   return true;
 }
 
+/// The smallest box around two others.
+[[nodiscard]] Box3 joined(const Box3& a, const Box3& b);
+
 /// The smallest box around three points.
 [[nodiscard]] Box3 box_around(const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -14,15 +14,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Meets nothing and adds nothing.
 constexpr Box3 empty_box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
-Box3 joined(const Box3& a, const Box3& b) {
-  Box3 result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.low[axis] = std::min(a.low[axis], b.low[axis]);
-    result.high[axis] = std::max(a.high[axis], b.high[axis]);
-  }
-  return result;
-}
-
 std::size_t longest_axis(const Box3& box) {
   std::size_t longest = 0;
   for (std::size_t axis = 1; axis < 3; ++axis) {

@@ -22,6 +22,11 @@ constexpr double least_slide = 0.125;
 /// Parts that were moved over each other must overlap that much.
 constexpr double least_overlap = 0.4;
 
+/// Slides that would take more tests of pairs of tiles than that are not made: a typical one takes
+/// a few dozen for each point.
+constexpr std::size_t most_pairs_of_point = 1000;
+constexpr std::size_t least_pairs = 1'000'000;
+
 /// In sums of two radii: the farthest shift with and without a prediction, and how far off a
 /// prediction may be, besides its share of the shift.
 constexpr double farthest_predicted = 4;
@@ -57,10 +62,11 @@ struct Moved {
   double difference = 0;
 };
 
-std::optional<Moved> move(const Region& lower, const Region& upper, Piece piece) {
+std::optional<Moved> move(const Region& lower, const Region& upper, Piece piece,
+                          std::size_t most_pairs = any_number) {
   const Extract below(lower, piece.lower.loops, piece.is_solid);
   const Extract above(upper, piece.upper.loops, piece.is_solid);
-  auto made = tile_moved(below.region(), above.region(), piece.shift);
+  auto made = tile_moved(below.region(), above.region(), piece.shift, most_pairs);
   if (!made) return std::nullopt;
   Moved moved;
   moved.tiles =
@@ -110,6 +116,8 @@ void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pie
   }
   if (movable.empty()) return;
   const std::vector<double> before = differences(lower, upper, tiles, pieces);
+  const std::size_t most_pairs =
+      least_pairs + most_pairs_of_point * (lower.points.size() + upper.points.size());
   std::vector<Replacement> replacements;
   for (const std::uint32_t i : movable) {
     Piece piece = pieces.pieces[i];
@@ -120,7 +128,7 @@ void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pie
         std::abs(piece.lower.area - piece.upper.area) > most ||
         swept(upper, piece.upper, piece.shift) < before[i] - most)
       continue;
-    auto moved = move(lower, upper, std::move(piece));
+    auto moved = move(lower, upper, std::move(piece), most_pairs);
     if (!moved || moved->difference > most) continue;
     replacements.push_back(replacement(std::move(*moved), {i}));
   }

@@ -319,29 +319,53 @@ class Replacing {
     return std::ranges::find(replaced, piece) != replaced.end();
   }
 
-  void find_meetings() {
-    std::vector<Box3> boxes;
+  /// The tiles of a replacement, to be found by their places.
+  struct Placed {
+    std::vector<Corners> corners;
+    Box3 box;
+    BoxTree tree;
+
+    [[nodiscard]] bool meets(const Corners& tile) const {
+      bool is_found = false;
+      tree.for_each_meeting(loft::box(tile), [&](std::uint32_t i) {
+        is_found = is_found || triangles_meet(tile, corners[i]);
+      });
+      return is_found;
+    }
+  };
+
+  [[nodiscard]] Placed placed(const TileSet& tiles) const {
     std::vector<Corners> places;
-    std::vector<std::uint32_t> owner;
-    for (std::uint32_t r = 0; r < replacements_.size(); ++r) {
-      for (const Tile& tile : replacements_[r].tiles.tiles) {
-        places.push_back(corners(lower_, upper_, replacements_[r].tiles, tile));
-        boxes.push_back(box(places.back()));
-        owner.push_back(r);
-      }
+    std::vector<Box3> boxes;
+    for (const Tile& tile : tiles.tiles) {
+      places.push_back(corners(lower_, upper_, tiles, tile));
+      boxes.push_back(box(places.back()));
+    }
+    const Box3 whole = std::accumulate(boxes.begin(), boxes.end(), boxes.front(), joined);
+    return {std::move(places), whole, BoxTree(boxes)};
+  }
+
+  /// Tiles of one replacement, and those that it replaces, may be many and near each other: boxes
+  /// around whole replacements keep them from being compared.
+  void find_meetings() {
+    std::vector<Placed> placed;
+    std::vector<Box3> boxes;
+    for (const Replacement& replacement : replacements_) {
+      placed.push_back(this->placed(replacement.tiles));
+      boxes.push_back(placed.back().box);
     }
     const BoxTree tree(boxes);
     tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      const auto [first, second] = std::minmax(owner[i], owner[j]);
-      if (first != second && triangles_meet(places[i], places[j]))
+      const auto [first, second] = std::minmax(i, j);
+      const auto meets = [&](const Corners& tile) { return placed[first].meets(tile); };
+      if (std::ranges::any_of(placed[second].corners, meets))
         meetings_.push_back({first, second, false});
     });
     for (std::size_t t = 0; t < tiles_.tiles.size(); ++t) {
       const Corners here = corners(lower_, upper_, tiles_, tiles_.tiles[t]);
-      tree.for_each_meeting(box(here), [&](std::uint32_t i) {
-        const std::uint32_t piece = pieces_.of_tile[t];
-        if (!is_replaced(owner[i], piece) && triangles_meet(here, places[i]))
-          meetings_.push_back({owner[i], piece, true});
+      const std::uint32_t piece = pieces_.of_tile[t];
+      tree.for_each_meeting(box(here), [&](std::uint32_t r) {
+        if (!is_replaced(r, piece) && placed[r].meets(here)) meetings_.push_back({r, piece, true});
       });
     }
     std::ranges::sort(meetings_);

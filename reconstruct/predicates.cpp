@@ -2,6 +2,7 @@
 #include "reconstruct/predicates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -49,6 +50,13 @@ Sides sides(const Corners& p, const Corners& q, std::size_t common) {
   Sides result{};
   for (std::size_t j = common; j < 3; ++j) result[j] = orient3d(p[0], p[1], p[2], q[j]);
   return result;
+}
+
+/// Whether floating point tells the sides of all corners of q but the common ones.
+bool is_clear(const Corners& p, const Corners& q, std::size_t common) {
+  for (std::size_t j = common; j < 3; ++j)
+    if (detail::orient3d_filter(p[0], p[1], p[2], q[j]) == 0) return false;
+  return true;
 }
 
 bool all_in_plane(const Sides& s) { return s[0] == 0 && s[1] == 0 && s[2] == 0; }
@@ -131,15 +139,36 @@ bool angles_meet(const FlatTriangle& p, const FlatTriangle& q) {
          has_in_angle(q, p[2]);
 }
 
-/// For coplanar triangles whose first `common` corners are the same.
-bool coplanar_triangles_meet(const Corners& p, const Corners& q, std::size_t common) {
-  const std::size_t axis = visible_axis(p);
+/// For triangles whose first `common` corners are the same, seen along an axis from which neither
+/// is degenerate: whether they meet there.
+bool seen_triangles_meet(const Corners& p, const Corners& q, std::size_t common, std::size_t axis) {
   if (common == 2) {
     return orient(without(axis, p)) == orient(without(axis, q));  // on the same side of the edge
   }
   const FlatTriangle flat_p = flattened(axis, p);
   const FlatTriangle flat_q = flattened(axis, q);
   return common == 1 ? angles_meet(flat_p, flat_q) : flat_triangles_meet(flat_p, flat_q);
+}
+
+/// The axis that the triangle is seen largest along, but for rounding.
+std::size_t widest_axis(const Corners& p) {
+  std::size_t widest = 0;
+  double largest = -1;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto [a, b, c] = without(axis, p);
+    const double area = std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+    if (!(area > largest)) continue;
+    largest = area;
+    widest = axis;
+  }
+  return widest;
+}
+
+/// Whether the triangles, both nearly in one plane, do not meet even in projection onto it.
+bool are_seen_apart(const Corners& p, const Corners& q, std::size_t common) {
+  const std::size_t axis = widest_axis(p);
+  if (orient(without(axis, p)) == 0 || orient(without(axis, q)) == 0) return false;
+  return !seen_triangles_meet(p, q, common, axis);
 }
 
 }  // namespace
@@ -179,9 +208,12 @@ bool triangles_meet(const Corners& first, const Corners& second) {
   Corners q = second;
   const std::size_t common = align_common_corners(p, q);
   if (common == 3) return true;
+  // Walls have thousands of triangles where contours cross that often. Most are told apart without
+  // exact arithmetic in space.
+  if (!is_clear(p, q, common) && are_seen_apart(p, q, common)) return false;
   const Sides sides_of_q = sides(p, q, common);
   if (all_on_one_side(sides_of_q, common)) return false;
-  if (all_in_plane(sides_of_q)) return coplanar_triangles_meet(p, q, common);
+  if (all_in_plane(sides_of_q)) return seen_triangles_meet(p, q, common, visible_axis(p));
   const Sides sides_of_p = sides(q, p, common);
   if (all_on_one_side(sides_of_p, common)) return false;
   if (common == 1) {

@@ -38,9 +38,9 @@ inline constexpr double orient3d_bound = 9 * cdt::detail::rounding;
 /// orient3d without filter.
 [[nodiscard]] int orient3d_exact(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-}  // namespace detail
-
-inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+/// orient3d as far as floating point tells: 0 where it does not.
+[[nodiscard]] inline int orient3d_filter(const Vec3& a, const Vec3& b, const Vec3& c,
+                                         const Vec3& d) {
   const double ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
   const double bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
   const double cx = c[0] - d[0], cy = c[1] - d[1], cz = c[2] - d[2];
@@ -51,10 +51,17 @@ inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) 
   const double magnitude = std::abs(az) * (std::abs(bc) + std::abs(cb)) +
                            std::abs(bz) * (std::abs(ca) + std::abs(ac)) +
                            std::abs(cz) * (std::abs(ab) + std::abs(ba));
-  const double bound = detail::orient3d_bound * magnitude;
+  const double bound = orient3d_bound * magnitude;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
-  return detail::orient3d_exact(a, b, c, d);
+  return 0;
+}
+
+}  // namespace detail
+
+inline int orient3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
+  const int side = detail::orient3d_filter(a, b, c, d);
+  return side != 0 ? side : detail::orient3d_exact(a, b, c, d);
 }
 
 }  // namespace loft

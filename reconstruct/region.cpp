@@ -537,8 +537,7 @@ Region settle(Region region, double least_distance, std::vector<Defect>& repairs
       sources.push_back({loops[i], region.slice, i});
     }
     std::vector<Defect> known;
-    Region again =
-        Cleaning(sources, region.z, {}, least_distance, known, memory).run_again();
+    Region again = Cleaning(sources, region.z, {}, least_distance, known, memory).run_again();
     for (Origin& origin : again.origins)
       if (origin.kind == VertexKind::contour)
         origin = region.origins[target[region.loop(origin.contour)[origin.point]]];

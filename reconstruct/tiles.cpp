@@ -176,7 +176,7 @@ class Tiling {
 
 /// Lengths of a slab that matter for rounding.
 struct Scale {
-  double shear;  // small against the slices, large against rounding
+  double shear;  // small against the slices, some times a rounding
   double tight;  // triangles lower than that are tested for what rounding does to them
 };
 
@@ -190,12 +190,13 @@ Scale scale(const Region& lower, const Region& upper) {
     }
   }
   const double size = box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  return {std::max(size * 0x1p-18, farthest * 0x1p-34),
+  return {std::max(size * 0x1p-18, farthest * 0x1p-50),
           std::max(size * 0x1p-28, farthest * 0x1p-44)};
 }
 
-/// Whether two tiles meet elsewhere than in common corners and edges (exact).
-bool meet(const Region& lower, const Region& upper, const TileSet& tiles) {
+/// Whether two tiles meet elsewhere than in common corners and edges (exact); also true if no more
+/// pairs may be tested.
+bool meet(const Region& lower, const Region& upper, const TileSet& tiles, std::size_t& pairs_left) {
   std::vector<Corners> corners;
   std::vector<Box3> boxes;
   for (const Tile& tile : tiles.tiles) {
@@ -206,9 +207,11 @@ bool meet(const Region& lower, const Region& upper, const TileSet& tiles) {
   }
   bool is_found = false;
   BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-    is_found = is_found || triangles_meet(corners[i], corners[j]);
+    if (is_found || pairs_left == 0) return;
+    --pairs_left;
+    is_found = triangles_meet(corners[i], corners[j]);
   });
-  return is_found;
+  return is_found || pairs_left == 0;
 }
 
 /// Whether the tiles and the two regions together have no rim, and nothing but the contours is in
@@ -289,13 +292,15 @@ std::optional<Draft> draft(Slab& slab, double tight, Overlay overlay, TileWorksp
 
 /// The tiles of a slab that is sheared on the way. None if they are not valid.
 std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, Point shear,
-                                    double tight, Overlay overlay, TileWorkspace& workspace) {
+                                    double tight, Overlay overlay, std::size_t& pairs_left,
+                                    TileWorkspace& workspace) {
   Slab slab(lower, upper, shear, std::move(workspace.overlay));
   auto drafted = draft(slab, tight, overlay, workspace);
   workspace.overlay = slab.release();
   if (!drafted) return {};
   collapse_crossings(lower, upper, drafted->tiles);
-  if ((drafted->is_doubtful || shear != Point{}) && meet(lower, upper, drafted->tiles)) return {};
+  const bool is_doubtful = drafted->is_doubtful || shear != Point{};
+  if (is_doubtful && meet(lower, upper, drafted->tiles, pairs_left)) return {};
   return std::move(drafted->tiles);
 }
 
@@ -314,16 +319,19 @@ TileSet tile_end(const Region& lower, const Region& upper, TileWorkspace& worksp
 /// Where a slice has slivers that are little wider than rounding, no overlay is exact: then one
 /// will do if all that is asked of its tiles holds.
 std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
-                                  TileWorkspace& workspace) {
+                                  std::size_t most_pairs, TileWorkspace& workspace) {
   if (lower.is_empty() || upper.is_empty()) return tile_end(lower, upper, workspace);
   const Scale lengths = scale(lower, upper);
+  std::size_t pairs_left = most_pairs;
   for (const Overlay overlay : {Overlay::exact, Overlay::rounded}) {
     for (int attempt = 0; attempt < most_shears; ++attempt) {
       const double turn = 2.399963 * attempt;  // the golden angle
       const double step = attempt * lengths.shear;
       const Point shear{shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)};
-      if (auto tiles = tile_sheared(lower, upper, shear, lengths.tight, overlay, workspace))
+      if (auto tiles =
+              tile_sheared(lower, upper, shear, lengths.tight, overlay, pairs_left, workspace))
         return tiles;
+      if (pairs_left == 0) return std::nullopt;
     }
   }
   return std::nullopt;
@@ -331,9 +339,10 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
 
 }  // namespace
 
-std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift) {
+std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
+                                  std::size_t most_pairs) {
   TileWorkspace workspace;
-  return tile_moved(lower, upper, shift, workspace);
+  return tile_moved(lower, upper, shift, most_pairs, workspace);
 }
 
 TileSet tile_apart(const Region& lower, const Region& upper) {
@@ -359,7 +368,7 @@ TileSet tile_apart(const Region& lower, const Region& upper) {
 }
 
 TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace) {
-  if (auto tiles = tile_moved(lower, upper, {}, workspace)) return std::move(*tiles);
+  if (auto tiles = tile_moved(lower, upper, {}, any_number, workspace)) return std::move(*tiles);
   return tile_apart(lower, upper);
 }
 

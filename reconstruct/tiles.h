@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -53,12 +54,17 @@ struct TileWorkspace {
 /// The same tiles, without new memory for their triangulations.
 [[nodiscard]] TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace);
 
+/// No limit.
+inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+
 /// The same with the upper region moved by `shift` while vertices are chosen to link: a shear of
 /// the slab, taken back afterwards, so that contour vertices are where they were and others move by
 /// their height's share of the shift (design, section 3, step 10). None if no valid tiles are
-/// found.
+/// found, or if that would take tests of more than `most_pairs` pairs of tiles: these are a few for
+/// each tile, but their number grows with its square where an edge lies along thousands of others.
 [[nodiscard]] std::optional<TileSet> tile_moved(const Region& lower, const Region& upper,
-                                                cdt::Point shift);
+                                                cdt::Point shift,
+                                                std::size_t most_pairs = any_number);
 
 /// Nothing is linked: each region ends before half way, whatever is above or below it.
 [[nodiscard]] TileSet tile_apart(const Region& lower, const Region& upper);

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -278,6 +279,24 @@ TEST(Triangulation, OfTwoLargeContoursIsValid) {
   mesh.insert(wobbly, closed);
   EXPECT_EQ(first_fault(mesh), "");
   EXPECT_GT(mesh.vertex_count(), 5500U + 300U);
+}
+
+// All tips of the comb's teeth are inserted before what is between them: in the order of the curve,
+// that would take a flip for every two teeth.
+TEST(Triangulation, InsertsACombInTimeNearlyLinear) {
+  const int teeth = 40'000;
+  std::vector<Point> comb;
+  for (int i = 0; i < teeth; ++i) {
+    comb.push_back({static_cast<double>(i), 0});
+    comb.push_back({i + 0.5, 10'000});
+  }
+  comb.push_back({static_cast<double>(teeth), -5000});
+  comb.push_back({0, -5000});
+  const auto start = std::chrono::steady_clock::now();
+  Triangulation mesh;
+  mesh.insert(comb, closed);
+  EXPECT_EQ(mesh.vertex_count(), comb.size());
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
 }
 
 // The crossing near the segment's start, rounded, is straight below it, while the segment is not

@@ -4,11 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <limits>
 #include <numbers>
 #include <random>
 #include <set>
+#include <string>
 
 #include "reconstruct/check.h"
 #include "reconstruct/measure.h"
@@ -244,6 +248,87 @@ TEST(Reconstruct, LargeCoordinatesLoseNothing) {
   EXPECT_EQ(faults(surface), "");
   expect_contours_kept(slices, surface);
   EXPECT_NEAR(measures(surface).volume, volume, 1e-6);
+}
+
+/// A polygon about a point whose corners are on a grid of sixteenths, as all numbers there are.
+Contour grainy_polygon(std::mt19937_64& random, std::size_t n, cdt::Point centre) {
+  std::uniform_real_distribution<double> radius(30, 45);
+  Contour contour = stacks::circle(n, 1, {}, radius(random));
+  for (cdt::Point& p : contour.points) {
+    const double r = radius(random);
+    p = {centre.x + std::round(16 * r * p.x) / 16, centre.y + std::round(16 * r * p.y) / 16};
+  }
+  return contour;
+}
+
+// The shear that keeps coordinates from meeting by chance was one of 29,000 there.
+TEST(Reconstruct, FarFromTheOriginNothingLeavesItsPlace) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const cdt::Point centre{5e14, 5e14};
+    const std::vector<Slice> slices{{0, {grainy_polygon(random, 20, centre)}},
+                                    {10, {grainy_polygon(random, 20, centre)}}};
+    const Reconstruction made = reconstruct(slices);
+    EXPECT_EQ(faults(made.surface), "");
+    EXPECT_TRUE(made.repairs.empty());
+    for (const auto v : made.surface.vertices()) {
+      const OpenMesh::Vec3d p = made.surface.point(v);
+      EXPECT_LT(std::hypot(p[0] - centre.x, p[1] - centre.y), 50);
+    }
+  }
+}
+
+/// A star of `n` corners, tips and what is between them in turn.
+Contour star(std::size_t n, double turn) {
+  Contour contour = stacks::circle(n, 100, {}, turn);
+  for (std::size_t i = 0; i < n; i += 2)
+    contour.points[i] = {contour.points[i].x / 2, contour.points[i].y / 2};
+  return contour;
+}
+
+/// Teeth along the x axis, from 0 to 100.
+Contour comb(std::size_t teeth, cdt::Point corner) {
+  Contour contour;
+  const double width = 100 / static_cast<double>(teeth);
+  for (std::size_t i = 0; i < teeth; ++i) {
+    const double x = corner.x + static_cast<double>(i) * width;
+    contour.points.push_back({x, corner.y});
+    contour.points.push_back({x + width / 2, corner.y + 10});
+  }
+  contour.points.push_back({corner.x + 100, corner.y - 5});
+  contour.points.push_back({corner.x, corner.y - 5});
+  return contour;
+}
+
+/// Pairs of slices whose outlines cross about as often as they have corners.
+std::vector<std::vector<Slice>> crossing_pairs(std::size_t corners) {
+  const double count = static_cast<double>(corners);
+  const Contour bar{{{-1, 5.01}, {101, 5.02}, {101, 30}, {-1, 30}}, {}};
+  return {{{0, {star(corners, 0)}}, {1, {star(corners, 1.234 / count)}}},
+          {{0, {comb(corners / 2, {})}}, {1, {comb(corners / 2, {60 / count, 0.1})}}},
+          {{0, {comb(corners / 2, {})}}, {1, {bar}}}};
+}
+
+TEST(Reconstruct, OutlinesThatCrossInVeryManyPlacesMakeASolid) {
+  for (const auto& slices : crossing_pairs(1000)) {
+    const Reconstruction made = reconstruct(slices);
+    EXPECT_EQ(faults(made.surface), "");
+    EXPECT_TRUE(made.repairs.empty());
+    expect_contours_kept(slices, made.surface);
+  }
+}
+
+/// Run as soak.crossings: some seconds each, where minutes went into flips and tests before.
+TEST(ManyCrossings, OfFortyThousandCornersTakeSeconds) {
+  if (std::getenv("LOFT_SOAK_CROSSINGS") == nullptr) GTEST_SKIP() << "only in the long run";
+  for (const auto& slices : crossing_pairs(40'000)) {
+    const auto start = std::chrono::steady_clock::now();
+    const Reconstruction made = reconstruct(slices);
+    EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
+    EXPECT_TRUE(made.repairs.empty());
+    expect_contours_kept(slices, made.surface);
+  }
 }
 
 TEST(Reconstruct, SmallUnitsAreAsGoodAsLargeOnes) {
