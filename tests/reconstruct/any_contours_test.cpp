@@ -8,10 +8,10 @@
 #include <set>
 #include <string>
 
-#include "reconstruct/check.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/random_pairs.h"
 #include "tests/reconstruct/shrink.h"
+#include "tests/reconstruct/solid.h"
 
 namespace loft {
 namespace {
@@ -64,11 +64,7 @@ std::string missing_edge(const std::vector<Slice>& slices, const Reconstruction&
 std::string complaint(const Pair& pair, bool is_smooth) {
   try {
     const Reconstruction made = reconstruct(pair.slices, {.fill = pair.fill, .smooth = is_smooth});
-    std::set<std::string> faults;
-    for (const Finding& finding : check(made.surface)) faults.insert(name(finding.fault));
-    std::string all = missing_edge(pair.slices, made);
-    for (const std::string& fault : faults) all += fault + ' ';
-    return all;
+    return missing_edge(pair.slices, made) + solids::faults(made.surface);
   } catch (const InputError& error) {
     // Fewer than two slices with an area: nothing to make a solid of.
     const auto& defects = error.defects();
