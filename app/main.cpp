@@ -64,11 +64,11 @@ std::string complain_of_length(const std::string& text) {
   return "'" + text + "' is no length; give a number above 0, in the unit of the input";
 }
 
-std::string complain_of_tolerance(const std::string& text) {
-  double tolerance = 0;
-  if (CLI::detail::lexical_cast(text, tolerance) && std::isfinite(tolerance) && tolerance >= 0)
+std::string complain_of_distance(const std::string& text) {
+  double distance = 0;
+  if (CLI::detail::lexical_cast(text, distance) && std::isfinite(distance) && distance >= 0)
     return {};
-  return "'" + text + "' is no tolerance; give 0 or a number above, in the unit of the input";
+  return "'" + text + "' is no distance; give 0 or a number above, in the unit of the input";
 }
 
 /// Options for smaller or fewer triangles.
@@ -89,7 +89,7 @@ void add_triangle_options(CLI::App& sub, loft::Options& options) {
                      "Remove vertices as long as the surface, contours included, moves by no more "
                      "than this; 0 removes only what changes nothing")
           ->type_name("TOLERANCE")
-          ->check(CLI::Validator(complain_of_tolerance, ""));
+          ->check(CLI::Validator(complain_of_distance, ""));
   max_edge->excludes(target_edge)->excludes(simplify);
   target_edge->excludes(simplify);
 }
@@ -119,7 +119,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "How wide such a channel may be, in the unit of the input (default 1/1000 of "
                   "the contour's diagonal)")
       ->type_name("LENGTH")
-      ->check(CLI::NonNegativeNumber);
+      ->check(CLI::Validator(complain_of_distance, ""));
   sub->add_option_function<std::string>(
          "--cap",
          [&command](const std::string& cap) {
@@ -161,7 +161,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "The farthest that --link auto moves a part sideways between two slices, in the "
                   "unit of the input; by the parts' size where not given")
       ->type_name("DISTANCE")
-      ->check(CLI::Range(0.0, loft::cdt::Triangulation::largest_coordinate));
+      ->check(CLI::Validator(complain_of_distance, ""));
   sub->add_option("--links", command.links,
                   "Contours to join or to keep apart: a line {\"from\": [slice, contour], "
                   "\"to\": [slice, contour], \"link\": true or false} each")

@@ -14,6 +14,7 @@
 #include "io/text_reader.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/vec3.h"
 
 namespace loft::io {
 
@@ -25,9 +26,7 @@ constexpr std::size_t record_size = 12 * sizeof(float) + 2;
 
 /// The unit normal, or zeros where there is none, which STL readers take as "work it out".
 Vec3 unit_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const Vec3 v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  const Vec3 n{u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]};
+  const Vec3 n = cross(minus(b, a), minus(c, a));
   const double length = std::hypot(n[0], n[1], n[2]);
   if (!(length > 0)) return {};
   return {n[0] / length, n[1] / length, n[2] / length};

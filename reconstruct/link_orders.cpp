@@ -3,10 +3,10 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 #include <utility>
 
+#include "reconstruct/adjacency.h"
 #include "reconstruct/box_tree.h"
 #include "reconstruct/parts.h"
 #include "reconstruct/predicates.h"
@@ -227,19 +227,11 @@ class Ordering {
 
   /// The set of each node, known by its smallest, if edges join nodes.
   [[nodiscard]] std::vector<std::uint32_t> sets(const std::set<PartGraph::Overlap>& edges) const {
-    std::vector<std::uint32_t> parent(node_count());
-    std::iota(parent.begin(), parent.end(), 0);
-    const auto root = [&parent](std::uint32_t i) {
-      while (parent[i] != i) i = parent[i];
-      return i;
-    };
-    for (const auto& edge : edges) {
-      const std::uint32_t a = root(edge.lower);
-      const std::uint32_t b = root(upper_node(edge.upper));
-      parent[std::max(a, b)] = std::min(a, b);
-    }
-    for (std::uint32_t i = 0; i < parent.size(); ++i) parent[i] = root(i);
-    return parent;
+    DisjointSets joined(node_count());
+    for (const auto& edge : edges) joined.unite(edge.lower, upper_node(edge.upper));
+    std::vector<std::uint32_t> set(node_count());
+    for (std::uint32_t i = 0; i < set.size(); ++i) set[i] = joined.find(i);
+    return set;
   }
 
   /// Tiles what the orders left make of the slab. False if some would meet: then an order less.
@@ -251,6 +243,7 @@ class Ordering {
       auto tiles = tile(groups_[g], g);
       if (!tiles) return drop_order(g, g, "no valid tiles were found for it");
       append(result_.tiles, *tiles, lower_count_ + upper_count_);
+      result_.tiles.is_linked = result_.tiles.is_linked && tiles->is_linked;
       owner.resize(result_.tiles.tiles.size(), g);
     }
     if (const auto meeting = find_meeting(owner))

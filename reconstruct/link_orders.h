@@ -64,8 +64,7 @@ struct OrderedTiles {
 /// in it is refused and the slab done again without it. LinkRule::none leaves only the linked ones.
 /// Without orders and for the other rules this is tile(). With LinkRule::automatic, pieces slide.
 [[nodiscard]] OrderedTiles tile_by_orders(const Region& lower, const Region& upper,
-                                          const Options& options,
-                                          std::span<const SlabOrder> orders,
+                                          const Options& options, std::span<const SlabOrder> orders,
                                           TileWorkspace& workspace);
 
 }  // namespace loft

@@ -5,17 +5,15 @@
 #include <cmath>
 
 #include "reconstruct/links.h"
+#include "reconstruct/vec3.h"
 
 namespace loft {
 
 namespace {
 
 double area(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-  const Vec3 v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-  return std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                    u[0] * v[1] - u[1] * v[0]) /
-         2;
+  const Vec3 normal = cross(minus(b, a), minus(c, a));
+  return std::hypot(normal[0], normal[1], normal[2]) / 2;
 }
 
 LinkKind kind(const Piece& piece) {

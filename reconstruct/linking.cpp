@@ -21,8 +21,12 @@ void Linking::drop_below(std::size_t slab) {
 void Linking::tile(std::size_t slab, TileWorkspace& workspace) {
   OrderedTiles made =
       tile_by_orders(region(slab), region(slab + 1), options_, orders(slab), workspace);
-  at(slab) = {std::move(made.tiles),     std::move(made.pieces), std::move(made.wanted),
-              std::move(made.forbidden), {},                     std::move(made.refusals)};
+  at(slab) = {std::move(made.tiles),
+              std::move(made.pieces),
+              std::move(made.wanted),
+              std::move(made.forbidden),
+              {},
+              std::move(made.refusals)};
 }
 
 SlabPieces Linking::view(std::size_t slab) const {

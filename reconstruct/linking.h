@@ -14,9 +14,9 @@ namespace loft {
 
 /// Tiles and links the slabs of a stack, from the lowest upwards, each in three steps. A step of
 /// one slab reads what the step before has made of it and of the slabs beside it, and writes its
-/// own slab only; so each step can be done for many slabs at once. What a slab becomes is a function
-/// of its two slices and one on either side; of its own two alone, if nothing ends in it or nothing
-/// begins.
+/// own slab only; so each step can be done for many slabs at once. What a slab becomes is a
+/// function of its two slices and one on either side; of its own two alone, if nothing ends in it
+/// or nothing begins.
 class Linking {
  public:
   /// Keeps a reference to the options. `orders` are those of each slab (orders_of_slabs()).
@@ -31,8 +31,8 @@ class Linking {
   }
 
   void tile(std::size_t slab, TileWorkspace& workspace);  ///< by overlap and by orders
-  void match(std::size_t slab);  ///< finds which ends belong together
-  void link(std::size_t slab);   ///< joins them
+  void match(std::size_t slab);                           ///< finds which ends belong together
+  void link(std::size_t slab);                            ///< joins them
 
   /// What the last step made.
   [[nodiscard]] TileSet& tiles(std::size_t slab) { return at(slab).tiles; }

@@ -103,11 +103,11 @@ void AngleCount::add(const Corners& triangle) {
   ++count_;
 }
 
-/// The middle of the bin that the triangle of that rank is in.
+/// The middle of the bin that the triangle of that rank is in; no less than the smallest of all.
 double AngleCount::angle_of(std::size_t rank) const {
   std::size_t bin = 0;
   for (std::size_t seen = counts_[0]; seen <= rank; seen += counts_[bin]) ++bin;
-  return (static_cast<double>(bin) + 0.5) / bins_a_degree;
+  return std::max(smallest_, (static_cast<double>(bin) + 0.5) / bins_a_degree);
 }
 
 Angles AngleCount::angles() const {

@@ -17,7 +17,7 @@ struct Angles {
   double smallest = 0;
   double fifth_percentile = 0;  ///< one face in 20 has a smaller one; to 0.01 degrees
   double median = 0;            ///< to 0.01 degrees
-  double worst_aspect = 0;  ///< longest side over the height on it, 1 at best; see aspect()
+  double worst_aspect = 0;      ///< longest side over the height on it, 1 at best; see aspect()
 };
 
 /// Size and shape of a mesh. Lengths in its own units.

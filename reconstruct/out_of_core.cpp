@@ -93,8 +93,7 @@ class Work {
         workspaces_(thread_count(options.threads)) {}
 
   OutOfCoreReport run(const Progress& progress) {
-    std::vector<double> z;
-    for (const SliceSource::Entry& slice : source_.slices) z.push_back(slice.z);
+    const std::vector<double> z = usable_heights();
     const std::vector<Height> heights = find_heights(z, repairs_);
     const auto tell = [&](std::size_t done) {
       const double share =
@@ -116,6 +115,18 @@ class Work {
   }
 
  private:
+  [[nodiscard]] std::vector<double> usable_heights() const {
+    std::vector<double> z;
+    std::vector<Defect> fatal;
+    for (const SliceSource::Entry& slice : source_.slices) {
+      const auto index = static_cast<std::uint32_t>(z.size());
+      std::ranges::move(find_unusable({slice.z, {}}, index), std::back_inserter(fatal));
+      z.push_back(slice.z);
+    }
+    if (!fatal.empty()) throw InputError(std::move(fatal));
+    return z;
+  }
+
   /// At least as many heights as there are threads, if there are.
   [[nodiscard]] std::span<const Height> next_group(std::span<const Height> heights) const {
     std::size_t points = 0;

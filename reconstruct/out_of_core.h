@@ -42,10 +42,10 @@ struct OutOfCoreReport {
 /// passes it on piece by piece: the vertices and faces of reconstruct(), in the same order.
 ///
 /// In memory are a few slices and slabs, the repairs, and the vertices and faces that only parts
-/// which touch need. Throws as reconstruct() does; but of slices with unusable numbers only
-/// those read until then are listed: call find_unusable() beforehand to have all. What the sink
+/// which touch need. Throws as reconstruct() does; but of slices with unusable coordinates
+/// one is listed: call find_unusable() beforehand to have all. What the sink
 /// got is of no use then. Throws std::invalid_argument for Options::simplify and Options::links,
-/// which need the whole stack.
+/// which need the whole stack; Options::reports_slabs has no effect.
 /// Progress has one stage, Stage::tile. Cost: O(n log n).
 [[nodiscard]] OutOfCoreReport reconstruct_out_of_core(const SliceSource& source,
                                                       const Options& options, SurfaceSink& sink,

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
+#include "reconstruct/adjacency.h"
 #include "reconstruct/box_tree.h"
 #include "reconstruct/predicates.h"
 
@@ -17,27 +17,6 @@ namespace {
 using cdt::Point;
 
 constexpr std::uint32_t none = Origin::none;
-
-/// Disjoint sets of numbers; each is known by its smallest.
-class Sets {
- public:
-  explicit Sets(std::size_t count) : parent_(count) {
-    std::iota(parent_.begin(), parent_.end(), 0);
-  }
-
-  std::uint32_t find(std::uint32_t i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void unite(std::uint32_t a, std::uint32_t b) {
-    a = find(a);
-    b = find(b);
-    parent_[std::max(a, b)] = std::min(a, b);
-  }
-
- private:
-  std::vector<std::uint32_t> parent_;
-};
 
 /// Area and first moments of what a loop encloses, signed, about an origin.
 struct Moments {
@@ -175,7 +154,7 @@ Pieces find_pieces(const Region& lower, const Region& upper, const TileSet& tile
     return found;
   }
   const auto lower_count = static_cast<std::uint32_t>(lower.points.size());
-  Sets sets(lower_count + upper.points.size() + tiles.inner.size());
+  DisjointSets sets(lower_count + upper.points.size() + tiles.inner.size());
   for (const auto& [region, first] : {std::pair(&lower, 0U), std::pair(&upper, lower_count)})
     for (std::size_t i = 0; i < region->loop_count(); ++i)
       for (const std::uint32_t v : region->loop(i))

@@ -219,8 +219,7 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& all_opt
   std::vector<SlabReport> reports;
   if (options.reports_slabs) reports = report_slabs(regions, slabs.tiles, slabs.pieces);
   if (options.smooth) smooth_all(regions, slabs, options.threads, progress);
-  if (options.max_edge || options.target_edge)
-    refine_all(regions, slabs.tiles, options, progress);
+  if (options.max_edge || options.target_edge) refine_all(regions, slabs.tiles, options, progress);
   Reporter sewing(progress, Stage::sew, 1);
   // Made in its place: an OpenMesh mesh cannot be moved, only copied.
   Reconstruction result{sew(regions, std::move(slabs.tiles), options.cap, options.threads),

@@ -36,11 +36,16 @@ class Cancelled : public Error {
 ///
 /// Options::simplify keeps contours and regions within its distance only; see simplify().
 ///
+/// Between slices that nearly coincide, rounding may leave no valid surface, in about one of a
+/// thousand: both then end half way, as if nothing overlapped, and DefectKind::unlinked_slices is
+/// among the repairs.
+///
 /// Slices may come in any order of height; those of equal height are merged. Leading and trailing
 /// empty slices are left out.
 /// Throws InputError with all fatal defects: a coordinate that is not finite or of no usable size
 /// (cdt::Triangulation::is_usable), slices so near to one another that rounding leaves nothing
-/// between them, fewer than two slices with an area.
+/// between them, fewer than two slices with an area; link orders that no stack could meet
+/// (find_bad_orders()), edge lengths that ask for too many triangles (split_long_edges()).
 /// Cost: O(n log n) for n contour points, in practice; memory in proportion to the result.
 [[nodiscard]] Reconstruction reconstruct(std::span<const Slice> slices, const Options& options = {},
                                          const Progress& progress = {});

@@ -13,6 +13,7 @@
 #include "cdt/regions.h"
 #include "reconstruct/keyholes.h"
 #include "reconstruct/meetings.h"
+#include "reconstruct/simple_slice.h"
 
 namespace loft {
 
@@ -560,6 +561,7 @@ double Filling::channel_width(std::span<const cdt::Point> contour) const {
 Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,
              std::vector<Defect>& repairs, Triangulation& memory) {
   const double least = least_distance(contours);
+  if (auto simple = simple_region(contours, z, filling.rule, least)) return std::move(*simple);
   Cleaning cleaning(contours, z, filling, least, repairs, memory);
   Region region = cleaning.run();
   return cleaning.is_settled() ? region : settle(std::move(region), least, repairs, memory);

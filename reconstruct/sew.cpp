@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <iterator>
+#include <limits>
 #include <utility>
 
 #include "reconstruct/caps.h"
+#include "reconstruct/defect.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/sewing.h"
 
@@ -63,6 +65,9 @@ class Assembly {
       : sewing_(sewing), surface_(surface), threads_(threads), numbers_(sewing.numbers()) {}
 
   void run() {
+    // OpenMesh's numbers are signed, and a closed mesh has as many half-edges as corners.
+    if (3 * face_count() > std::numeric_limits<int>::max())
+      throw Error("more triangles than fit in memory; work out of core");
     const std::vector<std::uint32_t> first_edges = number_edges();
     surface_.resize(vertex_count(), first_edges.back(), face_count());
     handles_.resize(3 * face_count());

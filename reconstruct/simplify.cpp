@@ -183,9 +183,9 @@ class Fan {
       const Vec3 area = cross(minus(place(i), middle_), minus(place(after(i)), middle_));
       for (std::size_t axis = 0; axis < 3; ++axis) normal_[axis] += area[axis];
     }
-    const double length = std::sqrt(squared_length(normal_));
-    if (!(length > 0)) return false;
-    for (double& x : normal_) x /= length;
+    const double magnitude = length(normal_);
+    if (!(magnitude > 0)) return false;
+    for (double& x : normal_) x /= magnitude;
     const Vec3 x_axis = across(normal_);
     const Vec3 y_axis = cross(normal_, x_axis);
     extent_ = 0;
@@ -210,8 +210,8 @@ class Fan {
     Vec3 unit{};
     unit[least] = 1;
     Vec3 result = cross(normal, unit);
-    const double length = std::sqrt(squared_length(result));
-    for (double& x : result) x /= length;
+    const double magnitude = length(result);
+    for (double& x : result) x /= magnitude;
     return result;
   }
 

@@ -10,6 +10,7 @@
 
 #include "reconstruct/box_tree.h"
 #include "reconstruct/predicates.h"
+#include "reconstruct/vec3.h"
 
 namespace loft {
 
@@ -44,18 +45,10 @@ constexpr double nearness = 0.003;
 constexpr double least_bend = 0.2;
 constexpr int most_corrections = 12;
 
-Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double length(const Vec3& a) { return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
-
-Vec3 along(const Vec3& p, double share, const Vec3& way) {
-  return {p[0] + share * way[0], p[1] + share * way[1], p[2] + share * way[2]};
-}
-
 /// The same whichever end is named first.
 Vec3 middle(const Vec3& a, const Vec3& b) {
   const Vec3& first = std::min(a, b);
-  return along(first, 0.5, difference(std::max(a, b), first));
+  return along(first, 0.5, minus(std::max(a, b), first));
 }
 
 /// What a connected piece of the tiles is bent to; nothing if its slices do not tell.
@@ -256,7 +249,7 @@ class Smoothing {
     if (is_known) return node;
     const Vec3 start = middle(place(a), place(b));
     const Vec3 way =
-        way_to(shapes_[piece], start, most_of_edge * length(difference(place(a), place(b))));
+        way_to(shapes_[piece], start, most_of_edge * length(minus(place(a), place(b))));
     if (!(length(way) > coarseness * height())) return none;
     node = contour_count_ + static_cast<std::uint32_t>(tiles_.inner.size());
     tiles_.inner.push_back({along(start, 1, way), VertexKind::steiner});
@@ -293,7 +286,7 @@ class Smoothing {
       add(ab, bc, ca);
     } else {
       add(ab, b, bc);
-      if (length(difference(place(a), place(bc))) < length(difference(place(ab), place(c)))) {
+      if (length(minus(place(a), place(bc))) < length(minus(place(ab), place(c)))) {
         add(a, ab, bc);
         add(a, bc, c);
       } else {

@@ -32,6 +32,10 @@ constexpr Bounds with_trend{0.1, 0.75};
 constexpr Bounds single{0.7, 0.75};
 constexpr Bounds unknown{0.5, 0.5};
 
+/// The steepest trend of an end, in depths: beyond, its shape hardly changes, but all that is left
+/// of its height is rounding.
+constexpr double most_trend = 1024;
+
 /// From one slice to the next at one place: how the distance changes with z.
 struct Chord {
   double angle;
@@ -140,7 +144,8 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
     const bool is_solid = slice_->distance.at(middle).distance < 0;
     const double there = before->distance.at(middle).distance * (is_solid ? -1 : 1);
     if (there > 0) {
-      trend_ = (depth * depth - there * there - gap * gap) / gap;
+      trend_ = std::clamp((depth * depth - there * there - gap * gap) / gap, -most_trend * depth,
+                          most_trend * depth);
       bounds = with_trend;
     }
   }

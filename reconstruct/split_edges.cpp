@@ -109,7 +109,7 @@ void check_size(const TileMesh& mesh, double longest) {
   double area = 0;
   for (const Tile& tile : mesh.tiles()) {
     const auto [a, b, c] = mesh.places(tile.nodes);
-    area += std::sqrt(squared_length(cross(minus(b, a), minus(c, a)))) / 2;
+    area += length(cross(minus(b, a), minus(c, a))) / 2;
   }
   if (area > most_area * longest * longest)
     throw InputError("edges that short would make more than " +

@@ -23,7 +23,7 @@ Sides sides(Corners t) {
   std::ranges::sort(t);
   Sides result{{squared_length(minus(t[1], t[0])), squared_length(minus(t[2], t[1])),
                 squared_length(minus(t[0], t[2]))},
-               std::sqrt(squared_length(cross(minus(t[1], t[0]), minus(t[2], t[0]))))};
+               length(cross(minus(t[1], t[0]), minus(t[2], t[0])))};
   std::ranges::sort(result.squared);
   return result;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cmath>
+
 #include "reconstruct/mesh.h"
 
 namespace loft {
@@ -8,6 +10,11 @@ namespace loft {
 /// Arithmetic on places and on the ways between them.
 [[nodiscard]] inline Vec3 minus(const Vec3& a, const Vec3& b) {
   return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// The place that is `share` of a way from p.
+[[nodiscard]] inline Vec3 along(const Vec3& p, double share, const Vec3& way) {
+  return {p[0] + share * way[0], p[1] + share * way[1], p[2] + share * way[2]};
 }
 
 [[nodiscard]] inline double dot(const Vec3& a, const Vec3& b) {
@@ -19,5 +26,7 @@ namespace loft {
 }
 
 [[nodiscard]] inline double squared_length(const Vec3& a) { return dot(a, a); }
+
+[[nodiscard]] inline double length(const Vec3& a) { return std::sqrt(squared_length(a)); }
 
 }  // namespace loft

@@ -25,6 +25,13 @@ for name in bunny vessels shells; do
   $loft check $out/$name.ply --stack samples/data/$name.ndjson
 done
 
+echo "== The same, bent between the slices"
+for name in bunny vessels shells; do
+  $loft reconstruct samples/data/$name.ndjson --smooth -o $out/${name}_smooth.glb -o $out/${name}_smooth.ply \
+    --quiet
+  $loft check $out/${name}_smooth.ply --stack samples/data/$name.ndjson
+done
+
 echo "== A program that uses the library"
 build/release/samples/surface_from_circles $out/vase.glb
 
@@ -35,6 +42,7 @@ Done. The skull is in
   $PWD/$out/skull.ply    with each vertex's slice, contour and point: MeshLab, ParaView
 The others lie beside it. Next, try
   $loft info samples/data/skull.ndjson
-  $loft reconstruct samples/data/skull.ndjson -o $out/skull.stl --cap dome --json
+  $loft reconstruct samples/data/skull.ndjson -o $out/skull.stl --smooth --cap dome --json
+  $loft reconstruct samples/data/bunny.ndjson -o $out/small.glb --simplify 0.5
   $loft --help
 END

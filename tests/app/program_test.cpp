@@ -228,6 +228,8 @@ TEST(Loft, NamesBadLinks) {
   EXPECT_NE(outcome.err.find("links.ndjson:2: "), std::string::npos) << outcome.err;
   EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --link all").exit_code, 2);
   EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --max-shift=-1").exit_code, 2);
+  EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --max-shift nan").exit_code, 2);
+  EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --keyhole-width nan").exit_code, 2);
 }
 
 TEST(Loft, ReadsSeveralFilesAndStandardInput) {

@@ -8,10 +8,10 @@
 #include <set>
 #include <string>
 
-#include "reconstruct/check.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/random_pairs.h"
 #include "tests/reconstruct/shrink.h"
+#include "tests/reconstruct/solid.h"
 
 namespace loft {
 namespace {
@@ -61,14 +61,10 @@ std::string missing_edge(const std::vector<Slice>& slices, const Reconstruction&
 }
 
 /// What is wrong with the surface between two slices; empty if nothing is.
-std::string complaint(const Pair& pair) {
+std::string complaint(const Pair& pair, bool is_smooth) {
   try {
-    const Reconstruction made = reconstruct(pair.slices, {.fill = pair.fill});
-    std::set<std::string> faults;
-    for (const Finding& finding : check(made.surface)) faults.insert(name(finding.fault));
-    std::string all = missing_edge(pair.slices, made);
-    for (const std::string& fault : faults) all += fault + ' ';
-    return all;
+    const Reconstruction made = reconstruct(pair.slices, {.fill = pair.fill, .smooth = is_smooth});
+    return missing_edge(pair.slices, made) + solids::faults(made.surface);
   } catch (const InputError& error) {
     // Fewer than two slices with an area: nothing to make a solid of.
     const auto& defects = error.defects();
@@ -97,24 +93,27 @@ std::uint64_t first_pair() {
   return first == nullptr ? 0 : std::strtoull(first, nullptr, 10);
 }
 
-TEST(AnyContours, MakeASolid) {
+void expect_solids(bool is_smooth, std::uint64_t wanted) {
   const std::uint64_t first = first_pair();
-  const std::uint64_t wanted = pairs_wanted();
   int failures = 0;
   for (std::uint64_t seed = first; seed < first + wanted && failures < 8; ++seed) {
     const Pair pair = stacks::random_pair(seed);
-    const std::string wrong = complaint(pair);
+    const std::string wrong = complaint(pair, is_smooth);
     if (wrong.empty()) continue;
     ++failures;
     const std::string kind = wrong.substr(0, wrong.find(' '));
     const auto small = stacks::shrink(pair.slices, [&](const std::vector<Slice>& slices) {
-      return complaint({slices, pair.fill}).starts_with(kind);
+      return complaint({slices, pair.fill}, is_smooth).starts_with(kind);
     });
     ADD_FAILURE() << "seed " << seed << " (" << stacks::kind_of_pair(seed) << "): " << wrong
                   << "\nfill " << static_cast<int>(pair.fill) << "\n"
                   << stacks::as_code(small);
   }
 }
+
+TEST(AnyContours, MakeASolid) { expect_solids(false, pairs_wanted()); }
+
+TEST(AnyContours, MakeASmoothSolid) { expect_solids(true, pairs_wanted() / 4); }
 
 TEST(AnyContours, AreLinkedButForOneInAThousand) {
   const std::uint64_t first = first_pair();

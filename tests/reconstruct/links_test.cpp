@@ -10,24 +10,17 @@
 #include <random>
 #include <set>
 
-#include "reconstruct/check.h"
 #include "reconstruct/linking.h"
 #include "reconstruct/measure.h"
 #include "reconstruct/reconstruct.h"
+#include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft {
 namespace {
 
+using solids::faults;
 using std::numbers::pi;
-
-std::string faults(const Surface& surface) {
-  std::set<std::string> names;
-  for (const Finding& finding : check(surface)) names.insert(name(finding.fault));
-  std::string all;
-  for (const std::string& name : names) all += name + ' ';
-  return all;
-}
 
 /// Reconstructs and expects a solid.
 Reconstruction solid(const std::vector<Slice>& slices, Options options = {}) {

@@ -86,6 +86,15 @@ TEST(Measure, TellsTheAnglesOfTriangles) {
   EXPECT_EQ(measure(Mesh{}).angles.median, 0);
 }
 
+TEST(Measure, NoPercentileOfAnglesIsBelowTheSmallest) {
+  const double angle = 10.009 * std::numbers::pi / 180;  // in the upper half of a bin
+  const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {std::cos(angle), std::sin(angle), 0}}, {{0, 1, 2}}};
+  const Angles angles = measure(mesh).angles;
+  EXPECT_NEAR(angles.smallest, 10.009, 1e-12);
+  EXPECT_GE(angles.fifth_percentile, angles.smallest);
+  EXPECT_GE(angles.median, angles.smallest);
+}
+
 TEST(Measure, AnglesArePercentilesOfTriangles) {
   Mesh mesh;
   for (std::uint32_t i = 0; i < 40; ++i) {  // angles of 1 to 40 degrees at the origin

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -141,6 +142,24 @@ TEST(OutOfCore, RefusesWhatIsRefusedInMemory) {
     } catch (const InputError& error) {
       EXPECT_EQ(error.what(), expected);
     }
+  }
+}
+
+TEST(OutOfCore, NamesAllHeightsThatAreNoNumbers) {
+  std::vector<Slice> slices = stacks::sphere(5, 10);
+  slices[1].z = slices[3].z = std::numeric_limits<double>::quiet_NaN();
+  std::string expected;
+  try {
+    (void)reconstruct(slices);
+  } catch (const InputError& error) {
+    expected = error.what();
+  }
+  Kept kept;
+  try {
+    (void)reconstruct_out_of_core(source(slices, 1), {}, kept);
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.what(), expected);
   }
 }
 

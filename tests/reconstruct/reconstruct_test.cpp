@@ -16,21 +16,15 @@
 
 #include "reconstruct/check.h"
 #include "reconstruct/measure.h"
+#include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft {
 namespace {
 
+using solids::expect_solid;
+using solids::faults;
 using std::numbers::pi;
-
-/// The names of all faults; empty for a valid solid.
-std::string faults(const Surface& surface) {
-  std::set<std::string> names;
-  for (const Finding& finding : check(surface)) names.insert(name(finding.fault));
-  std::string all;
-  for (const std::string& name : names) all += name + ' ';
-  return all;
-}
 
 Measures measures(const Surface& surface) { return measure(to_mesh(surface)); }
 
@@ -411,15 +405,6 @@ TEST(Reconstruct, ReportsProgressAndStopsWhenAskedTo) {
       Cancelled);
 }
 
-/// Every random stack must make a valid solid: the product's promise.
-void expect_solid(const std::vector<Slice>& slices, Fill fill = Fill::even_odd) {
-  try {
-    EXPECT_EQ(faults(reconstruct(slices, {.fill = fill}).surface), "");
-  } catch (const InputError&) {
-    // Fewer than two slices with an area: rare, and right.
-  }
-}
-
 /// Three slices of random contours.
 std::vector<Slice> random_stack(std::uint64_t seed) {
   std::mt19937_64 random(seed);
@@ -433,7 +418,7 @@ Fill random_fill(std::uint64_t seed) { return seed % 4 < 2 ? Fill::even_odd : Fi
 TEST(Reconstruct, AnyContoursMakeASolid) {
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_solid(random_stack(seed), random_fill(seed));
+    expect_solid(random_stack(seed), {.fill = random_fill(seed)});
   }
 }
 
@@ -441,7 +426,7 @@ TEST(Reconstruct, AnyContoursMakeASolid) {
 TEST(Reconstruct, ChordsBesideSliversLeaveTheSlicePlane) {
   for (const std::uint64_t seed : {11778U, 11994U, 15796U}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_solid(random_stack(seed), random_fill(seed));
+    expect_solid(random_stack(seed), {.fill = random_fill(seed)});
   }
 }
 
@@ -449,7 +434,7 @@ TEST(Reconstruct, ChordsBesideSliversLeaveTheSlicePlane) {
 TEST(Reconstruct, EdgesThatTouchAreAllSplitWhereOneIs) {
   for (const std::uint64_t seed : {122U, 2940U}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_solid(random_stack(seed), random_fill(seed));
+    expect_solid(random_stack(seed), {.fill = random_fill(seed)});
   }
 }
 
@@ -458,7 +443,7 @@ TEST(Reconstruct, EdgesThatTouchAreAllSplitWhereOneIs) {
 TEST(Reconstruct, SheetsOfARoundingLeaveTheSlicePlane) {
   for (const std::uint64_t seed : {11370U, 11486U}) {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    expect_solid(random_stack(seed), random_fill(seed));
+    expect_solid(random_stack(seed), {.fill = random_fill(seed)});
   }
 }
 

@@ -16,6 +16,7 @@
 #include "reconstruct/measure.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/vec3.h"
+#include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 #include "tests/reconstruct/triangles.h"
 
@@ -232,7 +233,7 @@ TEST(Refine, AnyContoursMakeASolid) {
     const double length = std::uniform_real_distribution<double>(0.2, 1)(random);
     (seed / 3 % 2 == 0 ? options.max_edge : options.target_edge) = length;
     try {
-      EXPECT_EQ(triangles::faults(reconstruct(slices, options).surface), "");
+      EXPECT_EQ(solids::faults(reconstruct(slices, options).surface), "");
     } catch (const InputError&) {
       // Fewer than two slices with an area: rare, and right.
     }
@@ -245,8 +246,8 @@ TEST(Refine, RoundingFarFromTheOriginMakesNothingMeet) {
   for (Slice& slice : slices)
     for (Contour& contour : slice.contours)
       for (cdt::Point& p : contour.points) p = {p.x + 5e12, p.y - 5e12};
-  EXPECT_EQ(triangles::faults(reconstruct(slices, {.max_edge = 0.05}).surface), "");
-  EXPECT_EQ(triangles::faults(reconstruct(slices, {.target_edge = 0.05}).surface), "");
+  EXPECT_EQ(solids::faults(reconstruct(slices, {.max_edge = 0.05}).surface), "");
+  EXPECT_EQ(solids::faults(reconstruct(slices, {.target_edge = 0.05}).surface), "");
 }
 
 TEST(Refine, NumbersOfVerticesHaveNoPartInIt) {

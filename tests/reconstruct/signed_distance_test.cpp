@@ -69,7 +69,7 @@ TEST(SignedDistance, GrowsOutwards) {
   EXPECT_DOUBLE_EQ(outside.outward.y, 0.8);
   const auto upon = square.at({-1, 0.5});
   EXPECT_EQ(upon.distance, 0);
-  EXPECT_EQ(upon.outward, cdt::Point(-1, 0));
+  EXPECT_EQ(upon.outward, (cdt::Point{-1, 0}));
 }
 
 // A corner that two loops share: which of its edges is nearest decides on the side.

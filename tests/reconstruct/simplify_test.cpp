@@ -10,13 +10,14 @@
 #include "reconstruct/defect.h"
 #include "reconstruct/measure.h"
 #include "reconstruct/reconstruct.h"
+#include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 #include "tests/reconstruct/triangles.h"
 
 namespace loft {
 namespace {
 
-using triangles::faults;
+using solids::faults;
 
 /// Simplifies, and expects what is promised of every result.
 Surface simplified(const Surface& surface, double tolerance) {

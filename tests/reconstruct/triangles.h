@@ -5,24 +5,12 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <set>
-#include <string>
 #include <vector>
 
-#include "reconstruct/check.h"
 #include "reconstruct/surface.h"
 #include "reconstruct/vec3.h"
 
 namespace loft::triangles {
-
-/// The names of all faults; empty for a valid solid.
-inline std::string faults(const Surface& surface) {
-  std::set<std::string> names;
-  for (const Finding& finding : check(surface)) names.insert(name(finding.fault));
-  std::string all;
-  for (const std::string& name : names) all += name + ' ';
-  return all;
-}
 
 /// The triangles by the places of their corners, in an order of their own.
 inline std::vector<std::array<Vec3, 3>> by_place(const Surface& surface) {

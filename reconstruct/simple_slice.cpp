@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/simple_slice.h"
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "cdt/predicates.h"
+#include "reconstruct/nearest.h"
+#include "reconstruct/tile_grid.h"
+
+namespace loft {
+
+namespace {
+
+using cdt::Box;
+using cdt::Point;
+
+/// Finding out what encloses what may take that many steps a point.
+constexpr std::size_t most_steps = 64;
+
+bool overlap(const Box& a, const Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+class SimpleSlice {
+ public:
+  SimpleSlice(std::span<const ContourSource> contours, double least_distance)
+      : contours_(contours), nearest_(2 * least_distance) {}
+
+  std::optional<Region> run(double z, Fill rule) {
+    if (rule == Fill::keyhole_aware || !list_edges() || !are_apart() || !find_turns() ||
+        !find_directions(rule))
+      return {};
+    Region region;
+    region.z = z;
+    region.slice = contours_.empty() ? 0 : contours_.front().slice;
+    region.loop_starts.push_back(0);
+    add_loops(region);
+    return region;
+  }
+
+ private:
+  struct Edge {
+    Point from;
+    Point to;
+    std::uint32_t contour;
+    std::uint32_t index;  // of its start
+
+    [[nodiscard]] Box box() const {
+      Box box;
+      box.add(from);
+      box.add(to);
+      return box;
+    }
+  };
+  struct Outline {
+    Box box;
+    std::uint32_t smallest = 0;  // its smallest point
+    bool turns_left = true;
+    bool goes_left = true;  // as a loop: the region on its left
+  };
+
+  [[nodiscard]] std::span<const Point> points(std::uint32_t contour) const {
+    return contours_[contour].points;
+  }
+  [[nodiscard]] std::uint32_t size(std::uint32_t contour) const {
+    return static_cast<std::uint32_t>(points(contour).size());
+  }
+
+  bool list_edges() {
+    outlines_.resize(contours_.size());
+    for (std::uint32_t c = 0; c < contours_.size(); ++c) {
+      const auto p = points(c);
+      if (p.size() < 3) return false;
+      for (std::uint32_t i = 0; i < p.size(); ++i) {
+        edges_.push_back({p[i], p[i + 1 == p.size() ? 0 : i + 1], c, i});
+        outlines_[c].box.add(p[i]);
+        if (p[i] < p[outlines_[c].smallest]) outlines_[c].smallest = i;
+      }
+    }
+    return true;
+  }
+
+  [[nodiscard]] bool follows(const Edge& a, const Edge& b) const {
+    return a.contour == b.contour && (a.index + 1 == size(a.contour) ? 0 : a.index + 1) == b.index;
+  }
+
+  [[nodiscard]] bool is_near(Point p, const Edge& e) const {
+    return distance(p, e.from, e.to) <= nearest_;
+  }
+
+  /// Whether two edges meet, or nearly so, elsewhere than in a common corner.
+  [[nodiscard]] bool meet(const Edge& a, const Edge& b) const {
+    if (follows(a, b)) return is_near(a.from, b) || is_near(b.to, a);
+    if (follows(b, a)) return is_near(b.from, a) || is_near(a.to, b);
+    if (is_near(a.from, b) || is_near(a.to, b) || is_near(b.from, a) || is_near(b.to, a))
+      return true;
+    return cdt::orient(a.from, a.to, b.from) != cdt::orient(a.from, a.to, b.to) &&
+           cdt::orient(b.from, b.to, a.from) != cdt::orient(b.from, b.to, a.to);
+  }
+
+  [[nodiscard]] bool are_apart() {
+    std::vector<Box> boxes;
+    boxes.reserve(edges_.size());
+    for (const Edge& edge : edges_) {
+      Box& box = boxes.emplace_back(edge.box());
+      box.low = {box.low.x - nearest_, box.low.y - nearest_};
+      box.high = {box.high.x + nearest_, box.high.y + nearest_};
+    }
+    TileGrid grid(edges_.size(), [&](std::uint32_t i) { return boxes[i]; });
+    for (std::uint32_t i = 0; i < edges_.size(); ++i) {
+      const bool is_apart = grid.all_of_near(boxes[i], [&](std::uint32_t j) {
+        return j <= i || !overlap(boxes[i], boxes[j]) || !meet(edges_[i], edges_[j]);
+      });
+      if (!is_apart) return false;
+    }
+    return true;
+  }
+
+  /// A simple outline turns as it does at its smallest point.
+  bool find_turns() {
+    for (std::uint32_t c = 0; c < outlines_.size(); ++c) {
+      const auto p = points(c);
+      const std::uint32_t i = outlines_[c].smallest;
+      const int turn =
+          cdt::orient(p[i == 0 ? p.size() - 1 : i - 1], p[i], p[i + 1 == p.size() ? 0 : i + 1]);
+      if (turn == 0) return false;
+      outlines_[c].turns_left = turn > 0;
+    }
+    return true;
+  }
+
+  /// By the ray from p to the right; p is not near the contour.
+  [[nodiscard]] bool encloses(std::uint32_t contour, Point p) const {
+    bool is_inside = false;
+    const auto all = points(contour);
+    Point a = all.back();
+    for (const Point b : all) {
+      if ((a.y > p.y) != (b.y > p.y) && (cdt::orient(a, b, p) > 0) == (b.y > a.y))
+        is_inside = !is_inside;
+      a = b;
+    }
+    return is_inside;
+  }
+
+  /// Which way round each outline has the region on its left, from those that enclose it.
+  bool find_directions(Fill rule) {
+    std::size_t steps = 0;
+    for (std::uint32_t c = 0; c < outlines_.size(); ++c) {
+      Outline& outline = outlines_[c];
+      const Point p = points(c)[outline.smallest];
+      int depth = 0;
+      int winding = 0;
+      for (std::uint32_t d = 0; d < outlines_.size(); ++d) {
+        const Box& box = outlines_[d].box;
+        if (d == c || p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y)
+          continue;
+        steps += size(d);
+        if (steps > most_steps * edges_.size()) return false;
+        if (!encloses(d, p)) continue;
+        ++depth;
+        winding += outlines_[d].turns_left ? 1 : -1;
+      }
+      if (rule == Fill::even_odd) {
+        outline.goes_left = depth % 2 == 0;
+        continue;
+      }
+      const int within = winding + (outline.turns_left ? 1 : -1);
+      if ((winding == 0) == (within == 0)) return false;  // a contour without effect
+      outline.goes_left = winding == 0;
+    }
+    return true;
+  }
+
+  void add_loops(Region& region) const {
+    std::vector<std::uint32_t> order(outlines_.size());
+    std::iota(order.begin(), order.end(), 0);
+    std::ranges::sort(order, {}, [&](std::uint32_t c) { return points(c)[outlines_[c].smallest]; });
+    region.points.reserve(edges_.size());
+    region.origins.reserve(edges_.size());
+    for (const std::uint32_t c : order) {
+      const Outline& outline = outlines_[c];
+      const bool is_forward = outline.turns_left == outline.goes_left;
+      const std::uint32_t n = size(c);
+      for (std::uint32_t k = 0; k < n; ++k) {
+        const std::uint32_t i = (outline.smallest + (is_forward ? k : n - k)) % n;
+        region.points.push_back(points(c)[i]);
+        region.origins.push_back(
+            {VertexKind::contour, contours_[c].slice, contours_[c].contour, i});
+      }
+      region.loop_starts.push_back(static_cast<std::uint32_t>(region.points.size()));
+    }
+    region.loop_vertices.resize(region.points.size());
+    std::iota(region.loop_vertices.begin(), region.loop_vertices.end(), 0);
+  }
+
+  std::span<const ContourSource> contours_;
+  double nearest_;
+  std::vector<Edge> edges_;
+  std::vector<Outline> outlines_;  // of each contour
+};
+
+}  // namespace
+
+std::optional<Region> simple_region(std::span<const ContourSource> contours, double z, Fill rule,
+                                    double least_distance) {
+  return SimpleSlice(contours, least_distance).run(z, rule);
+}
+
+}  // namespace loft
