@@ -336,10 +336,9 @@ class Replacing {
     }
     const BoxTree tree(boxes);
     tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-      const auto [first, second] = std::minmax(i, j);
-      const auto meets = [&](const Corners& tile) { return placed[first].meets(tile); };
-      if (std::ranges::any_of(placed[second].corners, meets))
-        meetings_.push_back({first, second, false});
+      const auto meets = [&](const Corners& tile) { return placed[i].meets(tile); };
+      if (std::ranges::any_of(placed[j].corners, meets))
+        meetings_.push_back({std::min(i, j), std::max(i, j), false});
     });
     for (std::size_t t = 0; t < tiles_.tiles.size(); ++t) {
       const Corners here = corners(lower_, upper_, tiles_, tiles_.tiles[t]);
