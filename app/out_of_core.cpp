@@ -112,6 +112,7 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
   std::string problems;
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;
+    options.reports_slabs = command.json;
     if (is_labelled) options.label = names[i];
     const auto follow = [&](Stage stage, double fraction) {
       const double done = (static_cast<double>(i) + fraction) / static_cast<double>(names.size());
@@ -127,6 +128,7 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
       part.measures = made.measures;
       part.vertices_of_kind = made.vertices_of_kind;
       part.repairs = std::move(made.repairs);
+      part.slabs = std::move(made.slabs);
       part.seconds["tile"] = stopwatch.lap();
       report.seconds["tile"] += part.seconds["tile"];
     } catch (const InputError& error) {

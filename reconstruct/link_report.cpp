@@ -56,8 +56,10 @@ LinkReport report(const Region& lower, const Region& upper, const Piece& piece, 
   return link;
 }
 
-SlabReport report(const Region& lower, const Region& upper, const TileSet& tiles,
-                  const Pieces& pieces) {
+}  // namespace
+
+SlabReport report_slab(const Region& lower, const Region& upper, const TileSet& tiles,
+                       const Pieces& pieces) {
   SlabReport slab;
   slab.lower_slice = lower.slice;
   slab.upper_slice = upper.slice;
@@ -89,14 +91,12 @@ SlabReport report(const Region& lower, const Region& upper, const TileSet& tiles
   return slab;
 }
 
-}  // namespace
-
 std::vector<SlabReport> report_slabs(std::span<const Region> regions,
                                      std::span<const TileSet> tiles,
                                      std::span<const Pieces> pieces) {
   std::vector<SlabReport> slabs;
   for (std::size_t i = 0; i < tiles.size(); ++i)
-    slabs.push_back(report(regions[i], regions[i + 1], tiles[i], pieces[i]));
+    slabs.push_back(report_slab(regions[i], regions[i + 1], tiles[i], pieces[i]));
   return slabs;
 }
 

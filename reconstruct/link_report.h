@@ -50,7 +50,10 @@ struct SlabReport {
   std::vector<LinkReport> links;
 };
 
-/// Slab i is between regions i and i + 1. Cost: O(tiles).
+/// Of the tiles as linking leaves them. Cost: O(tiles).
+[[nodiscard]] SlabReport report_slab(const Region& lower, const Region& upper, const TileSet& tiles,
+                                     const Pieces& pieces);
+/// Slab i is between regions i and i + 1.
 [[nodiscard]] std::vector<SlabReport> report_slabs(std::span<const Region> regions,
                                                    std::span<const TileSet> tiles,
                                                    std::span<const Pieces> pieces);

@@ -172,6 +172,7 @@ class Work {
     if (matched_bound_ < slab_bound_ + behind + (is_end ? 0 : 1)) return;
     const std::size_t first = std::exchange(slab_bound_, matched_bound_ - behind);
     std::vector<TileSet> slabs(slab_bound_ - first);
+    if (options_.reports_slabs) reports_.resize(slab_bound_);
     for_each_index(slabs.size(), options_.threads,
                    [&](std::size_t i, unsigned) { slabs[i] = make_slab(first + i); });
     linking_.drop_below(slab_bound_ == 0 ? 0 : slab_bound_ - 1);
@@ -192,6 +193,8 @@ class Work {
   [[nodiscard]] TileSet make_slab(std::size_t i) {
     linking_.link(i);
     TileSet tiles = std::move(linking_.tiles(i));
+    if (options_.reports_slabs)
+      reports_[i] = report_slab(regions_[i], regions_[i + 1], tiles, linking_.pieces(i));
     if (options_.smooth) {
       Surroundings around{};
       for (std::size_t k = 0; k < around.size(); ++k)
@@ -308,7 +311,8 @@ class Work {
     std::ranges::copy(regions_.repairs(), std::back_inserter(repairs));
     std::ranges::move(unlinked_, std::back_inserter(repairs));
     std::ranges::stable_sort(repairs, {}, &Defect::z);
-    return {std::move(repairs), survey_.measures(), survey_.vertices_of_kind()};
+    return {std::move(repairs), std::move(reports_), survey_.measures(),
+            survey_.vertices_of_kind()};
   }
 
   /// A face that a midpoint cut off: it comes behind all others.
@@ -334,6 +338,7 @@ class Work {
   std::vector<Cut> cuts_;
   std::vector<Defect> repairs_;
   std::vector<Defect> unlinked_;
+  std::vector<SlabReport> reports_;
 
   // Memory that is used again.
   std::vector<cdt::Triangulation> memories_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reconstruct/defect.h"
+#include "reconstruct/link_report.h"
 #include "reconstruct/measure.h"
 #include "reconstruct/options.h"
 #include "reconstruct/progress.h"
@@ -29,7 +30,8 @@ struct SliceSource {
 
 /// What reconstruct_out_of_core() finds out beside the surface.
 struct OutOfCoreReport {
-  std::vector<Defect> repairs;  ///< as those of Reconstruction
+  std::vector<Defect> repairs;    ///< as those of Reconstruction
+  std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
   Measures measures;
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
 };
@@ -41,11 +43,11 @@ struct OutOfCoreReport {
 /// Makes the surface of a stack larger than memory slab by slab, from the lowest slice upwards, and
 /// passes it on piece by piece: the vertices and faces of reconstruct(), in the same order.
 ///
-/// In memory are a few slices and slabs, the repairs, and the vertices and faces that only parts
+/// In memory are a few slices and slabs, the reports, and the vertices and faces that only parts
 /// which touch need. Throws as reconstruct() does; but of slices with unusable coordinates
 /// one is listed: call find_unusable() beforehand to have all. What the sink
 /// got is of no use then. Throws std::invalid_argument for Options::simplify and Options::links,
-/// which need the whole stack; Options::reports_slabs has no effect.
+/// which need the whole stack.
 /// Progress has one stage, Stage::tile. Cost: O(n log n).
 [[nodiscard]] OutOfCoreReport reconstruct_out_of_core(const SliceSource& source,
                                                       const Options& options, SurfaceSink& sink,
