@@ -5,8 +5,6 @@
 
 namespace loft {
 
-namespace {
-
 std::size_t longest_axis(const Box3& box) {
   std::size_t longest = 0;
   for (std::size_t axis = 1; axis < 3; ++axis) {
@@ -14,8 +12,6 @@ std::size_t longest_axis(const Box3& box) {
   }
   return longest;
 }
-
-}  // namespace
 
 Box3 joined(const Box3& a, const Box3& b) {
   Box3 result;

@@ -28,6 +28,9 @@ struct Box3 {
 /// The smallest box around two others.
 [[nodiscard]] Box3 joined(const Box3& a, const Box3& b);
 
+/// The axis along which a box is longest; of equals the first.
+[[nodiscard]] std::size_t longest_axis(const Box3& box);
+
 /// The smallest box around three points.
 [[nodiscard]] Box3 box_around(const Vec3& a, const Vec3& b, const Vec3& c);
 

@@ -14,14 +14,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Meets nothing and adds nothing.
 constexpr Box3 empty_box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
 
-std::size_t longest_axis(const Box3& box) {
-  std::size_t longest = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (box.high[axis] - box.low[axis] > box.high[longest] - box.low[longest]) longest = axis;
-  }
-  return longest;
-}
-
 }  // namespace
 
 FaceTree::FaceTree(std::span<const Box3> boxes)
