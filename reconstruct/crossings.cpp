@@ -11,6 +11,7 @@
 
 #include "reconstruct/predicates.h"
 #include "reconstruct/tile_grid.h"
+#include "reconstruct/vec3.h"
 
 namespace loft {
 
@@ -36,23 +37,18 @@ constexpr std::uint32_t none = Origin::none;
 
 using Nodes = std::array<std::uint32_t, 3>;
 
-Vec3 difference(const Vec3& a, const Vec3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 along = difference(b, a);
-  const double length = dot(along, along);
-  const double t = length > 0 ? std::clamp(dot(difference(p, a), along) / length, 0.0, 1.0) : 0.0;
-  const Vec3 nearest{a[0] + t * along[0], a[1] + t * along[1], a[2] + t * along[2]};
-  return dot(difference(p, nearest), difference(p, nearest));
+  const Vec3 way = minus(b, a);
+  const double length = dot(way, way);
+  const double t = length > 0 ? std::clamp(dot(minus(p, a), way) / length, 0.0, 1.0) : 0.0;
+  return squared_length(minus(p, along(a, t, way)));
 }
 
 /// From a point to a triangle: to its plane if the foot is inside, else to its nearest edge.
 double squared_distance(const Vec3& p, const Corners& t) {
-  const Vec3 u = difference(t[1], t[0]);
-  const Vec3 v = difference(t[2], t[0]);
-  const Vec3 w = difference(p, t[0]);
+  const Vec3 u = minus(t[1], t[0]);
+  const Vec3 v = minus(t[2], t[0]);
+  const Vec3 w = minus(p, t[0]);
   const double uu = dot(u, u), uv = dot(u, v), vv = dot(v, v), wu = dot(w, u), wv = dot(w, v);
   const double determinant = uu * vv - uv * uv;
   if (determinant > 0) {
@@ -70,9 +66,9 @@ double squared_distance(const Vec3& p, const Corners& t) {
 
 /// Squared: area over the sum of the squared sides; largest for equal sides, 0 if degenerate.
 double shape(const Corners& t) {
-  const Vec3 u = difference(t[1], t[0]);
-  const Vec3 v = difference(t[2], t[0]);
-  const Vec3 w = difference(t[2], t[1]);
+  const Vec3 u = minus(t[1], t[0]);
+  const Vec3 v = minus(t[2], t[0]);
+  const Vec3 w = minus(t[2], t[1]);
   const double sides = dot(u, u) + dot(v, v) + dot(w, w);
   return (dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v)) / (sides * sides);
 }

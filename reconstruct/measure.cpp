@@ -93,6 +93,13 @@ void FaceSum::add(const Corners& triangle) {
   const Vec3 normal = cross(minus(b, a), minus(c, a));
   area_ += std::sqrt(dot(normal, normal)) / 2;
   volume_ += dot(normal, minus(a, *origin_)) / 6;
+  angles_.add(triangle);
+}
+
+void FaceSum::put_into(Measures& measures) const {
+  measures.area = area_;
+  measures.volume = volume_;
+  measures.angles = angles_.angles();
 }
 
 void AngleCount::add(const Corners& triangle) {
@@ -125,16 +132,11 @@ Measures measure(const Mesh& mesh) {
   result.components = count_components(mesh, faces, edges);
   result.genus = genus(result, count_rims(mesh, edges));
   FaceSum sum;
-  AngleCount angles;
   for (const std::uint32_t face : faces) {
     const auto [a, b, c] = mesh.faces[face];
-    const Corners corners{mesh.points[a], mesh.points[b], mesh.points[c]};
-    sum.add(corners);
-    angles.add(corners);
+    sum.add({mesh.points[a], mesh.points[b], mesh.points[c]});
   }
-  result.area = sum.area();
-  result.volume = sum.volume();
-  result.angles = angles.angles();
+  sum.put_into(result);
   return result;
 }
 
@@ -146,7 +148,6 @@ Measures measure(const Surface& surface) {
   result.components = count_components(surface);
   result.genus = genus(result, count_rims(surface));
   FaceSum sum;
-  AngleCount angles;
   for (const auto face : surface.faces()) {
     Corners corners;
     auto h = surface.halfedge_handle(face);
@@ -156,11 +157,8 @@ Measures measure(const Surface& surface) {
       h = surface.next_halfedge_handle(h);
     }
     sum.add(corners);
-    angles.add(corners);
   }
-  result.area = sum.area();
-  result.volume = sum.volume();
-  result.angles = angles.angles();
+  sum.put_into(result);
   return result;
 }
 

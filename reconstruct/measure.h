@@ -33,20 +33,6 @@ struct Measures {
   Angles angles;
 };
 
-/// Adds up area and volume face by face, seen from the first corner that is added, so that the
-/// place of a mesh costs no accuracy.
-class FaceSum {
- public:
-  void add(const Corners& triangle);
-  [[nodiscard]] double area() const { return area_; }
-  [[nodiscard]] double volume() const { return volume_; }
-
- private:
-  std::optional<Vec3> origin_;
-  double area_ = 0;
-  double volume_ = 0;
-};
-
 /// Counts the smallest angles of triangles, in bins so narrow that percentiles are right to a
 /// hundredth of a degree.
 class AngleCount {
@@ -63,6 +49,21 @@ class AngleCount {
   std::size_t count_ = 0;
   double smallest_ = 60;
   double worst_aspect_ = 0;
+};
+
+/// Measures what faces tell one by one: area, volume and angles. Volume is seen from the first
+/// corner that is added, so that the place of a mesh costs no accuracy.
+class FaceSum {
+ public:
+  void add(const Corners& triangle);
+  /// Sets area, volume and angles.
+  void put_into(Measures& measures) const;
+
+ private:
+  std::optional<Vec3> origin_;
+  double area_ = 0;
+  double volume_ = 0;
+  AngleCount angles_;
 };
 
 /// The genus by Euler's formula, from the counts of everything else; `rims` closed chains of edges

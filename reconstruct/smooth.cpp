@@ -158,7 +158,8 @@ class Smoothing {
 
   TileSet run() {
     move_inner();
-    while (round_ < most_rounds && refine()) ++round_;
+    for (int round = 0; round < most_rounds && refine(); ++round) {
+    }
     for (int i = 0; i < most_corrections; ++i) {
       if (!straighten()) return std::move(tiles_);
     }
@@ -357,7 +358,6 @@ class Smoothing {
   std::uint32_t contour_count_;
   std::vector<Move> moves_;  // of each inner vertex
   EdgeIndex middles_;        // the node that each edge is split at; none if it stays
-  int round_ = 0;
 };
 
 }  // namespace

@@ -27,7 +27,6 @@ void Survey::add_vertices(std::span<const SurfaceVertex> vertices) {
 void Survey::add_face(const std::array<Vec3, 3>& corners) {
   ++measures_.faces;
   sum_.add(corners);
-  angles_.add(corners);
 }
 
 void Survey::connect(const Sewing& sewing, std::uint32_t layer) {
@@ -58,9 +57,7 @@ Measures Survey::measures() {
   measures_.edges = (side_count_ + rim_side_count_) / 2;
   measures_.components = parts_.count();
   measures_.genus = genus(measures_, rim_count_);
-  measures_.area = sum_.area();
-  measures_.volume = sum_.volume();
-  measures_.angles = angles_.angles();
+  sum_.put_into(measures_);
   return measures_;
 }
 

@@ -29,7 +29,6 @@ class Survey {
  private:
   Measures measures_;
   FaceSum sum_;
-  AngleCount angles_;
   std::array<std::size_t, 4> kinds_{};
   std::size_t side_count_ = 0;
   std::size_t rim_side_count_ = 0;   // where the surface ends
