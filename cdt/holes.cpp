@@ -231,8 +231,9 @@ void Triangulation::close_hole(std::uint32_t some) {
 // --- A vertex on a straight line ---
 
 /// Takes out a vertex at which two constrained edges meet that are one without it; both go out from
-/// it. The holes on the two sides of the line are filled as those beside a new segment. Nothing
-/// happens if a corner of the hole is not strictly beside the line.
+/// it. The holes on the two sides of the line are filled as those beside a new segment. If rounding
+/// had bent the line, what was hidden behind the bend may be seen now: the rim of the hole is
+/// suspect then. Nothing happens if a corner of the hole is not strictly beside the line.
 bool Triangulation::delete_between(VertexId v, EdgeId to_start, EdgeId to_end) {
   if (is_flat_) {
     const PassageSet set = side(to_start).set;
@@ -265,7 +266,18 @@ bool Triangulation::delete_between(VertexId v, EdgeId to_start, EdgeId to_end) {
   locator_.replace(v, place, start);
   free_vertex(v);
   last_ = there;
+  if (orient(point(start), point(end), place) != 0) {
+    suspect_rim(left_);
+    suspect_rim(right_);
+    restore_delaunay();
+  }
   return true;
+}
+
+/// The edges around a filled hole may not be Delaunay.
+void Triangulation::suspect_rim(const Cavity& cavity) {
+  for (const Gap& gap : cavity.gaps)
+    suspects_.push_back(EdgeId(gap.beyond.bits & ~OrientedEdge::constrained));
 }
 
 /// The chain around a vertex from the end of one of its edges counter-clockwise to that of another,

@@ -492,6 +492,7 @@ class Triangulation {
   void delete_from_line(VertexId v);
   void gather_half(Cavity& cavity, EdgeId first, EdgeId last);
   [[nodiscard]] bool is_beside(const Cavity& cavity) const;
+  void suspect_rim(const Cavity& cavity);
   [[nodiscard]] bool fill_small_hole(VertexId v);
   [[nodiscard]] bool plan(const Cavity& cavity, std::uint32_t low, std::uint32_t high);
   [[nodiscard]] EdgeId fill_planned(Cavity& cavity, std::uint32_t low, std::uint32_t high);
