@@ -95,7 +95,7 @@ struct Result {
     report.slabs = std::move(made.slabs);
   }
 
-  Reconstruction made;
+  Reconstructed made;
   PartReport report;
 };
 

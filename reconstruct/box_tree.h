@@ -1,38 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include "reconstruct/mesh.h"
+#include "reconstruct/box3.h"
 
 namespace loft {
-
-/// A closed axis-parallel box in space.
-struct Box3 {
-  Vec3 low;
-  Vec3 high;
-};
-
-[[nodiscard]] inline bool boxes_meet(const Box3& a, const Box3& b) {
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (a.high[axis] < b.low[axis] || b.high[axis] < a.low[axis]) return false;
-  }
-  return true;
-}
-
-/// The smallest box around two others.
-[[nodiscard]] Box3 joined(const Box3& a, const Box3& b);
-
-/// The axis along which a box is longest; of equals the first.
-[[nodiscard]] std::size_t longest_axis(const Box3& box);
-
-/// The smallest box around three points.
-[[nodiscard]] Box3 box_around(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// A bounding volume hierarchy: finds the boxes that meet a box, or each other.
 /// Split at the median centre along the longest axis, so at most log2(n) deep whatever the input.

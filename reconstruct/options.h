@@ -87,7 +87,7 @@ struct Options {
   std::optional<double> max_shift = {};
   /// Orders that cannot be met are reported among the repairs; the slab is then as without them.
   std::vector<LinkOrder> links = {};
-  /// Whether to fill Reconstruction::slabs, or OutOfCoreReport::slabs.
+  /// Whether to fill Reconstructed::slabs, or OutOfCoreReport::slabs.
   bool reports_slabs = false;
 };
 

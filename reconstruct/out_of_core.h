@@ -30,7 +30,7 @@ struct SliceSource {
 
 /// What reconstruct_out_of_core() finds out beside the surface.
 struct OutOfCoreReport {
-  std::vector<Defect> repairs;    ///< as those of Reconstruction
+  std::vector<Defect> repairs;    ///< as those of Reconstructed
   std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
   Measures measures;
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind

@@ -196,8 +196,8 @@ void check_enough(std::span<const Region> regions) {
 
 }  // namespace
 
-Reconstruction reconstruct(std::span<const Slice> slices, const Options& all_options,
-                           const Progress& progress) {
+Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_options,
+                          const Progress& progress) {
   if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
   if (const auto problems = find_bad_orders(slices, all_options.links); !problems.empty())
     throw InputError(in_lines(problems));
@@ -222,8 +222,8 @@ Reconstruction reconstruct(std::span<const Slice> slices, const Options& all_opt
   if (options.max_edge || options.target_edge) refine_all(regions, slabs.tiles, options, progress);
   Reporter sewing(progress, Stage::sew, 1);
   // Made in its place: an OpenMesh mesh cannot be moved, only copied.
-  Reconstruction result{sew(regions, std::move(slabs.tiles), options.cap, options.threads),
-                        std::move(repairs), std::move(reports)};
+  Reconstructed result{sew(regions, std::move(slabs.tiles), options.cap, options.threads),
+                       std::move(repairs), std::move(reports)};
   sewing.add_step();
   if (options.simplify) {
     Reporter simplifying(progress, Stage::simplify, 1);

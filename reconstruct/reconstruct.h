@@ -15,7 +15,7 @@
 namespace loft {
 
 /// A surface and what was found and repaired on the way to it.
-struct Reconstruction {
+struct Reconstructed {
   Surface surface;
   std::vector<Defect> repairs;    ///< in the order of heights; none is fatal
   std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
@@ -47,8 +47,8 @@ class Cancelled : public Error {
 /// between them, fewer than two slices with an area; link orders that no stack could meet
 /// (find_bad_orders()), edge lengths that ask for too many triangles (split_long_edges()).
 /// Cost: O(n log n) for n contour points, in practice; memory in proportion to the result.
-[[nodiscard]] Reconstruction reconstruct(std::span<const Slice> slices, const Options& options = {},
-                                         const Progress& progress = {});
+[[nodiscard]] Reconstructed reconstruct(std::span<const Slice> slices, const Options& options = {},
+                                        const Progress& progress = {});
 
 /// The labels in a stack, sorted, each once; a contour without label counts as "".
 [[nodiscard]] std::vector<std::string> labels(std::span<const Slice> slices);

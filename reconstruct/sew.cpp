@@ -18,18 +18,18 @@ namespace {
 /// So many layers are sewn at once: enough for many threads, few enough to take little memory.
 constexpr std::size_t batch_size = 64;
 
-Sewing sew_layers(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
+Sewing sew_layers(std::span<const Region* const> regions, std::vector<TileSet> slabs, Cap cap,
                   unsigned threads) {
   const auto count = static_cast<std::uint32_t>(slabs.size());
   Sewing sewing;
   std::vector<Layer> batch;
-  if (cap == Cap::flat) batch.push_back(bottom_cap(regions.front()));
+  if (cap == Cap::flat) batch.push_back(bottom_cap(*regions.front()));
   for (std::uint32_t i = 0; i < count; ++i) {
-    batch.push_back({&regions[i], &regions[i + 1], std::move(slabs[i]), i, regions[i].slice});
+    batch.push_back({regions[i], regions[i + 1], std::move(slabs[i]), i, regions[i]->slice});
     if (batch.size() == batch_size) sewing.add(std::exchange(batch, {}), threads);
   }
   if (cap == Cap::flat)
-    batch.push_back(top_cap(regions.back(), count - 1, regions[count - 1].slice));
+    batch.push_back(top_cap(*regions.back(), count - 1, regions[count - 1]->slice));
   sewing.add(std::move(batch), threads);
   sewing.finish(threads);
   return sewing;
@@ -43,15 +43,16 @@ struct Counts {
 
 /// How large the surface will be, but for what sewing adds where parts touch, for caps of regions
 /// with holes, and for rims: few edges and faces.
-Counts plain_counts(std::span<const Region> regions, std::span<const TileSet> slabs, Cap cap) {
+Counts plain_counts(std::span<const Region* const> regions, std::span<const TileSet> slabs,
+                    Cap cap) {
   Counts counts;
-  for (const Region& region : regions) counts.vertices += region.points.size();
+  for (const Region* region : regions) counts.vertices += region->points.size();
   for (const TileSet& slab : slabs) {
     counts.vertices += slab.inner.size();
     counts.faces += slab.tiles.size();
   }
   if (cap == Cap::flat)
-    for (const Region* end : {&regions.front(), &regions.back()})
+    for (const Region* end : {regions.front(), regions.back()})
       counts.faces += end->points.size() - std::min<std::size_t>(2, end->points.size());
   counts.edges = counts.faces * 3 / 2;
   return counts;
@@ -235,7 +236,7 @@ class Assembly {
 
 }  // namespace
 
-Surface sew(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
+Surface sew(std::span<const Region* const> regions, std::vector<TileSet> slabs, Cap cap,
             unsigned threads) {
   Surface surface;  // filled in place: moving one would copy it
   const Counts counts = plain_counts(regions, slabs, cap);
@@ -250,6 +251,13 @@ Surface sew(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap
   });
   Assembly(sewing, surface, threads).run();
   return surface;
+}
+
+Surface sew(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
+            unsigned threads) {
+  std::vector<const Region*> all;
+  for (const Region& region : regions) all.push_back(&region);
+  return sew(all, std::move(slabs), cap, threads);
 }
 
 Surface sew(std::span<const Region> regions, std::span<const TileSet> slabs, Cap cap) {

@@ -15,6 +15,8 @@ namespace loft {
 /// `regions[i + 1]`. With Cap::flat the first and the last region close it.
 /// The result does not depend on the number of threads; 0 are all there are.
 /// Precondition: at least one slab. Cost: O(n).
+[[nodiscard]] Surface sew(std::span<const Region* const> regions, std::vector<TileSet> slabs,
+                          Cap cap, unsigned threads = 1);
 [[nodiscard]] Surface sew(std::span<const Region> regions, std::vector<TileSet> slabs, Cap cap,
                           unsigned threads = 1);
 [[nodiscard]] Surface sew(std::span<const Region> regions, std::span<const TileSet> slabs, Cap cap);

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
     slices.push_back(slice);
   }
 
-  const loft::Reconstruction vase = loft::reconstruct(slices);
+  const loft::Reconstructed vase = loft::reconstruct(slices);
   loft::io::write(path, std::array{loft::io::Part{"vase", &vase.surface}});
   std::cout << path << ": " << vase.surface.n_faces() << " triangles\n";
 }

@@ -15,7 +15,7 @@ int main() {
       {0, {{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, ""}}},
       {3, {{{{1, 1}, {3, 1}, {3, 3}, {1, 3}}, ""}}},
   };
-  const loft::Reconstruction frustum = loft::reconstruct(slices);
+  const loft::Reconstructed frustum = loft::reconstruct(slices);
   loft::io::write("frustum.ply", std::array{loft::io::Part{"frustum", &frustum.surface}});
 
   const double expected = 28;  // 3/3 * (16 + 4 + sqrt(16 * 4))

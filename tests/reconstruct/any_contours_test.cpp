@@ -43,7 +43,7 @@ class PlacesOfEdges {
 };
 
 /// The first contour edge, of a slice that needed no repair, that is not in the surface.
-std::string missing_edge(const std::vector<Slice>& slices, const Reconstruction& made) {
+std::string missing_edge(const std::vector<Slice>& slices, const Reconstructed& made) {
   const PlacesOfEdges edges(to_mesh(made.surface));
   for (std::uint32_t s = 0; s < slices.size(); ++s) {
     const auto is_here = [s](const Defect& defect) { return defect.slice == s; };
@@ -63,7 +63,7 @@ std::string missing_edge(const std::vector<Slice>& slices, const Reconstruction&
 /// What is wrong with the surface between two slices; empty if nothing is.
 std::string complaint(const Pair& pair, bool is_smooth) {
   try {
-    const Reconstruction made = reconstruct(pair.slices, {.fill = pair.fill, .smooth = is_smooth});
+    const Reconstructed made = reconstruct(pair.slices, {.fill = pair.fill, .smooth = is_smooth});
     return missing_edge(pair.slices, made) + solids::faults(made.surface);
   } catch (const InputError& error) {
     // Fewer than two slices with an area: nothing to make a solid of.

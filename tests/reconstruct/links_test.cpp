@@ -23,17 +23,17 @@ using solids::faults;
 using std::numbers::pi;
 
 /// Reconstructs and expects a solid.
-Reconstruction solid(const std::vector<Slice>& slices, Options options = {}) {
+Reconstructed solid(const std::vector<Slice>& slices, Options options = {}) {
   options.reports_slabs = true;
-  Reconstruction made = reconstruct(slices, options);
+  Reconstructed made = reconstruct(slices, options);
   EXPECT_EQ(faults(made.surface), "");
   return made;
 }
 
-Measures measures(const Reconstruction& made) { return measure(to_mesh(made.surface)); }
+Measures measures(const Reconstructed& made) { return measure(to_mesh(made.surface)); }
 
 /// How often which rule made which kind of link: `link predicted`.
-std::map<std::string, int> count(const Reconstruction& made) {
+std::map<std::string, int> count(const Reconstructed& made) {
   std::map<std::string, int> counts;
   for (const SlabReport& slab : made.slabs)
     for (const LinkReport& link : slab.links)
@@ -57,14 +57,14 @@ double disc_area() { return 20 * std::sin(pi / 20); }
 TEST(Links, ADiscThatMovesKeepsItsVolume) {
   for (const double step : {0.3, 0.7, 1.1, 1.5, 1.9, 2.5, 3.0, 3.5}) {
     SCOPED_TRACE(step);
-    const Reconstruction made = solid(moving_disc(9, step));
+    const Reconstructed made = solid(moving_disc(9, step));
     EXPECT_EQ(measures(made).components, 1U);
     EXPECT_NEAR(measures(made).volume / (8 * disc_area()), 1, 0.02);
   }
 }
 
 TEST(Links, TwoSlicesAreEnough) {
-  const Reconstruction made = solid(moving_disc(2, 2.5));
+  const Reconstructed made = solid(moving_disc(2, 2.5));
   EXPECT_EQ(count(made), (Counts{{"link nearest", 1}}));
   EXPECT_NEAR(measures(made).volume, disc_area(), 0.01);
 }
@@ -73,7 +73,7 @@ TEST(Links, UnevenGapsArePredictedByTheirHeights) {
   std::vector<Slice> slices;
   for (const double z : {0.0, 1.0, 1.5, 3.0, 4.2, 5.0, 7.0})
     slices.push_back({z, {stacks::circle(40, 1, {2.7 * z, 0.5 * z})}});
-  const Reconstruction made = solid(slices);
+  const Reconstructed made = solid(slices);
   EXPECT_EQ(measures(made).components, 1U);
   EXPECT_NEAR(measures(made).volume / (7 * disc_area()), 1, 0.01);
 }
@@ -84,7 +84,7 @@ TEST(Links, DiscsThatPassEachOtherKeepTheirWays) {
     slices.push_back(
         {double(i),
          {stacks::circle(40, 1, {2.4 * i, 0}), stacks::circle(40, 1, {24 - 2.4 * i, 2.6})}});
-  const Reconstruction made = solid(slices);
+  const Reconstructed made = solid(slices);
   EXPECT_EQ(measures(made).components, 2U);
   EXPECT_EQ(count(made), (Counts{{"link predicted", 20}}));
   EXPECT_NEAR(measures(made).volume / (20 * disc_area()), 1, 0.01);
@@ -99,7 +99,7 @@ TEST(Links, AHelixOfTwoStrands) {
           stacks::circle(30, 1, {6 * std::cos(0.5 * i + turn), 6 * std::sin(0.5 * i + turn)}));
     slices.push_back(slice);
   }
-  const Reconstruction made = solid(slices);
+  const Reconstructed made = solid(slices);
   EXPECT_EQ(measures(made).components, 2U);
   EXPECT_EQ(count(made), (Counts{{"link predicted", 38}}));
 }
@@ -172,11 +172,11 @@ TEST(Links, ATreeOfSlantedBranchesIsOnePiece) {
   double expected = 0;
   for (std::size_t i = 0; i + 1 < slices.size(); ++i)
     expected += (area(slices[i]) + area(slices[i + 1])) / 2;
-  const Reconstruction made = solid(slices);
+  const Reconstructed made = solid(slices);
   EXPECT_EQ(measures(made).components, 1U);
   EXPECT_EQ(measures(made).genus, 0);
   EXPECT_NEAR(measures(made).volume / expected, 1, 0.02);
-  const Reconstruction plain = solid(slices, {.link = LinkRule::overlap});
+  const Reconstructed plain = solid(slices, {.link = LinkRule::overlap});
   EXPECT_GT(measures(plain).components, 10U);
   EXPECT_LT(measures(plain).volume / expected, 0.9);
 }
@@ -187,7 +187,7 @@ TEST(Links, AShellClosesAsOutlinesAndHoles) {
                                   {1, {stacks::circle(40, 3.4), stacks::circle(30, 2.5)}},
                                   {2, {stacks::circle(40, 3.4), stacks::circle(30, 2.5)}},
                                   {3, {stacks::circle(30, 2.4)}}};
-  const Reconstruction made = solid(slices);
+  const Reconstructed made = solid(slices);
   EXPECT_EQ(count(made), (Counts{{"birth predicted", 1},
                                  {"death predicted", 1},
                                  {"link predicted", 2},
@@ -242,7 +242,7 @@ TEST(Links, NothingMovesFartherThanAllowed) {
 
 TEST(Links, WithRuleNoneEverySliceStandsAlone) {
   const auto slices = stacks::y_branch(8, 40);
-  const Reconstruction made = solid(slices, {.link = LinkRule::none});
+  const Reconstructed made = solid(slices, {.link = LinkRule::none});
   std::size_t contours = 0;
   for (const Slice& slice : slices) contours += slice.contours.size();
   EXPECT_EQ(measures(made).components, contours);
@@ -256,7 +256,7 @@ TEST(LinkOrders, JoinWhatIsFarApart) {
   const auto slices = moving_disc(3, 30);
   EXPECT_EQ(measures(solid(slices)).components, 3U);
   for (const LinkRule rule : {LinkRule::automatic, LinkRule::overlap, LinkRule::none}) {
-    const Reconstruction made =
+    const Reconstructed made =
         solid(slices, {.link = rule, .links = {join({0, 0}, {1, 0}), join({2, 0}, {1, 0})}});
     EXPECT_EQ(measures(made).components, 1U);
     EXPECT_NEAR(measures(made).volume, 2 * disc_area(), 0.01);
@@ -269,7 +269,7 @@ TEST(LinkOrders, KeepApartWhatOverlaps) {
   const std::vector<Slice> slices{{0, {stacks::square(2), stacks::square(1, {9, 9})}},
                                   {1, {stacks::square(2), stacks::square(1, {9, 9})}},
                                   {2, {stacks::square(2), stacks::square(1, {9, 9})}}};
-  const Reconstruction made = solid(slices, {.links = {part({0, 0}, {1, 0})}});
+  const Reconstructed made = solid(slices, {.links = {part({0, 0}, {1, 0})}});
   EXPECT_TRUE(made.repairs.empty());
   EXPECT_EQ(measures(made).components, 3U);
   EXPECT_EQ(count(made), (Counts{{"birth order", 1}, {"death order", 1}, {"link overlap", 3}}));
@@ -277,7 +277,7 @@ TEST(LinkOrders, KeepApartWhatOverlaps) {
 
 TEST(LinkOrders, KeepApartWhatWouldBeLinked) {
   const auto slices = moving_disc(5, 2.5);
-  const Reconstruction made = solid(slices, {.links = {part({3, 0}, {2, 0})}});
+  const Reconstructed made = solid(slices, {.links = {part({3, 0}, {2, 0})}});
   EXPECT_EQ(measures(made).components, 2U);
   EXPECT_TRUE(made.repairs.empty());
 }
@@ -296,7 +296,7 @@ TEST(LinkOrders, UntangleARowOfSlantedRods) {
   }
   EXPECT_EQ(measures(solid(slices)).components, 1U);
   options.link = LinkRule::none;
-  const Reconstruction made = solid(slices, options);
+  const Reconstructed made = solid(slices, options);
   EXPECT_TRUE(made.repairs.empty());
   EXPECT_EQ(measures(made).components, 4U);
   EXPECT_EQ(count(made), (Counts{{"link order", 12}}));
@@ -306,9 +306,8 @@ TEST(LinkOrders, AreRefusedWhereTilesWouldMeet) {
   // Two rods upright side by side; crossing over would take them through each other.
   const std::vector<Slice> slices{{0, {stacks::circle(20, 1), stacks::circle(20, 1, {3, 0})}},
                                   {1, {stacks::circle(20, 1), stacks::circle(20, 1, {3, 0})}}};
-  const Reconstruction made =
-      solid(slices, {.links = {join({0, 0}, {1, 1}), join({0, 1}, {1, 0}), part({0, 0}, {1, 0}),
-                               part({0, 1}, {1, 1})}});
+  const Reconstructed made = solid(slices, {.links = {join({0, 0}, {1, 1}), join({0, 1}, {1, 0}),
+                                                      part({0, 0}, {1, 0}), part({0, 1}, {1, 1})}});
   ASSERT_EQ(made.repairs.size(), 1U);
   EXPECT_EQ(made.repairs[0].kind, DefectKind::refused_link);
   EXPECT_EQ(made.repairs[0].slice, 0U);
@@ -321,10 +320,10 @@ TEST(LinkOrders, ReachHoles) {
   for (int i = 0; i < 2; ++i)
     slices.push_back({double(i), {stacks::square(20), stacks::circle(20, 1, {12.0 * i - 6, 0})}});
   EXPECT_EQ(measures(solid(slices)).genus, 0);
-  const Reconstruction made = solid(slices, {.links = {join({0, 1}, {1, 1})}});
+  const Reconstructed made = solid(slices, {.links = {join({0, 1}, {1, 1})}});
   EXPECT_TRUE(made.repairs.empty());
   EXPECT_EQ(measures(made).genus, 1);
-  const Reconstruction mixed = solid(slices, {.links = {join({0, 1}, {1, 0})}});
+  const Reconstructed mixed = solid(slices, {.links = {join({0, 1}, {1, 0})}});
   ASSERT_EQ(mixed.repairs.size(), 1U);
   EXPECT_EQ(mixed.repairs[0].message,
             "not linked with slice 1 contour 0: one bounds a part, the other a hole");
@@ -357,13 +356,13 @@ TEST(LinkOrders, OfOtherLabelsAreLeftOut) {
     slice.contours[1].label = "heart";
   }
   const Options options{.label = "heart", .links = {join({0, 0}, {1, 0}), part({1, 1}, {2, 1})}};
-  const Reconstruction made = solid(slices, options);
+  const Reconstructed made = solid(slices, options);
   EXPECT_TRUE(made.repairs.empty());
   EXPECT_EQ(measures(made).components, 2U);
 }
 
 /// Vertices of the surface, sorted.
-std::vector<std::array<double, 3>> places(const Reconstruction& made) {
+std::vector<std::array<double, 3>> places(const Reconstructed& made) {
   std::vector<std::array<double, 3>> all;
   for (const auto v : made.surface.vertices()) {
     const auto& p = made.surface.point(v);
@@ -436,11 +435,11 @@ TEST(Links, OfAMirroredStackAreMirrored) {
   for (std::uint64_t seed = 0; seed < 10; ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     auto slices = wandering(seed);
-    const Reconstruction made = solid(slices);
+    const Reconstructed made = solid(slices);
     for (Slice& slice : slices)
       for (Contour& contour : slice.contours)
         for (cdt::Point& p : contour.points) p.x = -p.x;
-    const Reconstruction mirrored = solid(slices);
+    const Reconstructed mirrored = solid(slices);
     EXPECT_EQ(count(mirrored), count(made));
     EXPECT_EQ(measures(mirrored).components, measures(made).components);
     for (Slice& slice : slices) slice.z = -slice.z;
@@ -521,7 +520,7 @@ TEST(LinkReport, TellsWhatHappensToTheParts) {
       {1, {stacks::square(2), stacks::square(1, {20, 0})}},
       {2, {stacks::square(0.5, {-1, 0}), stacks::square(0.5, {1, 0}), stacks::square(1, {20, 0})}},
       {3, {stacks::square(2)}}};
-  const Reconstruction made = solid(slices);
+  const Reconstructed made = solid(slices);
   ASSERT_EQ(made.slabs.size(), 3U);
   EXPECT_EQ(count(made), (Counts{{"birth overlap", 1},
                                  {"death overlap", 1},
@@ -551,7 +550,7 @@ TEST(LinkReport, TellsWhatHappensToTheParts) {
 }
 
 TEST(LinkReport, TellsOfShiftsAndHoles) {
-  const Reconstruction made = solid(moving_disc(4, 1.5));
+  const Reconstructed made = solid(moving_disc(4, 1.5));
   EXPECT_EQ(count(made), (Counts{{"link slide", 3}}));
   for (const SlabReport& slab : made.slabs) {
     const double way = std::hypot(1.5, 0.45);
@@ -561,7 +560,7 @@ TEST(LinkReport, TellsOfShiftsAndHoles) {
   }
   std::vector<Slice> slices;
   for (int i = 0; i < 2; ++i) slices.push_back({double(i), {stacks::square(3), stacks::square(1)}});
-  const Reconstruction pipe = solid(slices);
+  const Reconstructed pipe = solid(slices);
   ASSERT_EQ(pipe.slabs[0].links.size(), 2U);
   EXPECT_TRUE(pipe.slabs[0].links[0].is_solid);
   EXPECT_FALSE(pipe.slabs[0].links[1].is_solid);

@@ -45,7 +45,7 @@ void expect_same_defects(const std::vector<Defect>& some, const std::vector<Defe
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_EQ(describe(some[i]), describe(others[i]));
 }
 
-void expect_same(const Reconstruction& made, const OutOfCoreReport& report, const Kept& kept) {
+void expect_same(const Reconstructed& made, const OutOfCoreReport& report, const Kept& kept) {
   const Surface& surface = made.surface;
   ASSERT_EQ(kept.vertices_.size(), surface.n_vertices());
   ASSERT_EQ(kept.faces_.size(), surface.n_faces());
@@ -75,7 +75,7 @@ void expect_same(const Reconstruction& made, const OutOfCoreReport& report, cons
 
 /// With groups of all sizes; each slice is said to have so many points that groups come out small.
 void expect_same_out_of_core(const std::vector<Slice>& slices, const Options& options) {
-  const Reconstruction made = reconstruct(slices, options);
+  const Reconstructed made = reconstruct(slices, options);
   for (const std::size_t points_said : {1U << 20U, 1U << 15U, 0U}) {
     Kept kept;
     const OutOfCoreReport report =

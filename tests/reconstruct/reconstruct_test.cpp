@@ -71,7 +71,7 @@ TEST(Reconstruct, TwoUnlikeCirclesTakeATriangleForEachPoint) {
 TEST(Reconstruct, AnExtrudedSquareIsABox) {
   std::vector<Slice> slices;
   for (const double z : {0.0, 1.0, 2.5, 7.0}) slices.push_back({z, {stacks::square(2)}});
-  const Reconstruction made = reconstruct(slices);
+  const Reconstructed made = reconstruct(slices);
   const Surface& surface = made.surface;
   const std::vector<Defect>& repairs = made.repairs;
   EXPECT_TRUE(repairs.empty());
@@ -168,7 +168,7 @@ TEST(Reconstruct, AnEmptySliceInterruptsTheShape) {
   std::vector<Slice> slices;
   for (int i = 0; i < 5; ++i) slices.push_back({double(i), {stacks::circle(24, 3)}});
   slices[2].contours.clear();
-  const Reconstruction made = reconstruct(slices);
+  const Reconstructed made = reconstruct(slices);
   const Surface& surface = made.surface;
   const std::vector<Defect>& repairs = made.repairs;
   EXPECT_EQ(faults(surface), "");
@@ -217,7 +217,7 @@ TEST(Reconstruct, SortsSlicesAndMergesThoseOfOneHeight) {
                             {0, {stacks::square(2), stacks::square(1)}},
                             {1, {stacks::square(2)}},
                             {1, {stacks::square(1)}}};
-  const Reconstruction made = reconstruct(slices);
+  const Reconstructed made = reconstruct(slices);
   const Surface& surface = made.surface;
   const std::vector<Defect>& repairs = made.repairs;
   ASSERT_EQ(repairs.size(), 1U);
@@ -262,7 +262,7 @@ TEST(Reconstruct, FarFromTheOriginNothingLeavesItsPlace) {
     const cdt::Point centre{5e14, 5e14};
     const std::vector<Slice> slices{{0, {grainy_polygon(random, 20, centre)}},
                                     {10, {grainy_polygon(random, 20, centre)}}};
-    const Reconstruction made = reconstruct(slices);
+    const Reconstructed made = reconstruct(slices);
     EXPECT_EQ(faults(made.surface), "");
     EXPECT_TRUE(made.repairs.empty());
     for (const auto v : made.surface.vertices()) {
@@ -305,7 +305,7 @@ std::vector<std::vector<Slice>> crossing_pairs(std::size_t corners) {
 
 TEST(Reconstruct, OutlinesThatCrossInVeryManyPlacesMakeASolid) {
   for (const auto& slices : crossing_pairs(1000)) {
-    const Reconstruction made = reconstruct(slices);
+    const Reconstructed made = reconstruct(slices);
     EXPECT_EQ(faults(made.surface), "");
     EXPECT_TRUE(made.repairs.empty());
     expect_contours_kept(slices, made.surface);
@@ -316,7 +316,7 @@ TEST(Reconstruct, OutlinesThatCrossInVeryManyPlacesMakeASolid) {
 TEST(ManyCrossings, OfFortyThousandCornersMakeASurface) {
   if (std::getenv("LOFT_SOAK_CROSSINGS") == nullptr) GTEST_SKIP() << "only in the long run";
   for (const auto& slices : crossing_pairs(40'000)) {
-    const Reconstruction made = reconstruct(slices);
+    const Reconstructed made = reconstruct(slices);
     EXPECT_TRUE(made.repairs.empty());
     expect_contours_kept(slices, made.surface);
   }
@@ -457,7 +457,7 @@ TEST(Reconstruct, SliversOfSomeRoundingsAreLinked) {
           {2.0000000300000003, 2.9999999600000002},
           {2.0000000115473973, -4.5838378566074009e-08}},
          {}}}}};
-  const Reconstruction made = reconstruct(slices);
+  const Reconstructed made = reconstruct(slices);
   EXPECT_EQ(faults(made.surface), "");
   for (const Defect& defect : made.repairs) EXPECT_NE(defect.kind, DefectKind::unlinked_slices);
 }

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "io/edit.h"
+
+namespace loft::io {
+
+/// The journal of a capture: every edit that was acknowledged, in order, in an SQLite file
+/// (write-ahead log, synchronous full). What append() has returned for survives the end of the
+/// process and the loss of power. One process at a time may write; any number may read.
+class Session {
+ public:
+  enum class Access { read, write };
+
+  /// Opens the journal; with Access::write makes it where there is none. Throws FileError that says
+  /// what is wrong and the way out: not writable, in use by another process, not a session file,
+  /// made by a newer loft, damaged.
+  Session(const std::filesystem::path& path, Access access);
+  ~Session();
+  Session(Session&&) noexcept;
+  Session& operator=(Session&&) noexcept;
+
+  /// Adds edits, all or none; on return they are durable. Throws FileError (disk full, device
+  /// error); then none of them is kept.
+  void append(std::span<const Edit> edits);
+  /// Calls take() for each edit, in order; with little in memory. Throws FileError where the journal
+  /// is damaged, naming the edit: each one has a checksum.
+  void for_each(const std::function<void(std::uint64_t number, Edit&& edit)>& take) const;
+  [[nodiscard]] std::uint64_t edit_count() const;
+
+  /// Settings of the capture that resuming it needs (fill rule, unit, ...), as text; kept in the
+  /// journal.
+  [[nodiscard]] std::map<std::string, std::string> settings() const;
+  void set_settings(const std::map<std::string, std::string>& settings);
+
+ private:
+  class Journal;
+  std::unique_ptr<Journal> journal_;
+};
+
+}  // namespace loft::io

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "cdt/point.h"
+#include "reconstruct/box3.h"
+#include "reconstruct/defect.h"
+#include "reconstruct/link_report.h"
+#include "reconstruct/options.h"
+#include "reconstruct/slice.h"
+#include "reconstruct/snapshot.h"
+#include "reconstruct/surface.h"
+
+namespace loft {
+
+/// What an edit made of the surface.
+struct SurfaceChange {
+  std::vector<std::uint32_t> removed;  ///< ids of the slabs that are gone, in ascending order
+  std::vector<SlabInfo> added;         ///< those in their place, from low to high
+  std::size_t vertices_added = 0;
+  std::size_t vertices_removed = 0;
+  std::size_t faces_added = 0;
+  std::size_t faces_removed = 0;
+  std::optional<Box3> bounds;   ///< of all faces that came or went
+  std::vector<Defect> repairs;  ///< what was found in the edited slices and in the slabs added
+
+  [[nodiscard]] bool is_empty() const { return removed.empty() && added.empty(); }
+};
+
+/// The surface through a stack of slices that come, change and go one at a time.
+///
+/// Law: after any edits in any order the surface is that of reconstruct() for the same slices: the
+/// same vertices and the same faces, in another order. All that is promised there holds here after
+/// each edit. While fewer than two slices have an area there is no surface.
+///
+/// An edit of a slice changes the slabs beside it: at most two; at most four with Options::smooth,
+/// and where a part ends or begins. The first and the last slab own the caps, so that a slice
+/// beyond the end changes the slab that was the last one. The mesh is updated in its place: handles
+/// of faces, vertices and edges that are not among what an edit removed stay valid. What is removed
+/// is marked as deleted (OpenMesh's status) and used again by later edits.
+///
+/// Strong guarantee: an edit that throws has changed nothing.
+///
+/// Not for several threads at once; snapshots may be used in any thread.
+class Reconstruction {
+ public:
+  /// Throws std::invalid_argument for what needs the whole stack: Options::simplify, ::links.
+  explicit Reconstruction(Options options = {});
+  ~Reconstruction();
+  Reconstruction(Reconstruction&&) noexcept;
+  Reconstruction& operator=(Reconstruction&&) noexcept;
+
+  /// Adds a slice at any height. At a height that is there already the contours of both are one
+  /// slice from then on, as in a stack with two slices of one height; the repairs say so.
+  /// Throws InputError with all that is wrong with the slice: a coordinate that is not finite or of
+  /// no usable size, a height too near to another one.
+  /// Cost: that of making the slabs beside it, whatever the number of slices.
+  SurfaceChange insert(Slice slice);
+  /// Puts a slice into the place of the one at height z; it may have another height.
+  /// Only what its contours change is made anew.
+  /// Throws as insert(), and where there is no slice at z, or another one at the new height.
+  SurfaceChange replace(double z, Slice slice);
+  /// Throws InputError where there is no slice at z.
+  SurfaceChange remove(double z);
+  /// Gives a contour of the slice at z other points; it keeps its label.
+  /// Throws InputError as replace(), and where there is no such contour.
+  SurfaceChange move_contour(double z, std::size_t contour, std::vector<cdt::Point> points);
+
+  /// The live surface. Vertices of deleted status are holes in its arrays. Origin::slice and
+  /// FaceTraits::slab do not count from below: they are the slice's number in order of arrival and
+  /// the id of the slab. An id is given once; a slab that changes gets a new one.
+  [[nodiscard]] const Surface& surface() const;
+  /// Closes the holes that removed elements have left in the mesh, which makes all handles invalid.
+  void collect_garbage();
+
+  [[nodiscard]] std::size_t slice_count() const;
+  /// The slice at a height, or null.
+  [[nodiscard]] const Slice* find(double z) const;
+  /// All slices, from low to high.
+  [[nodiscard]] std::vector<Slice> slices() const;
+  /// All slabs, from low to high.
+  [[nodiscard]] std::vector<SlabInfo> slabs() const;
+  /// What was found in slices and slabs, by height; as Reconstructed::repairs, with slices counted
+  /// from below.
+  [[nodiscard]] std::vector<Defect> repairs() const;
+
+  /// The present state, for other threads and later. Cost: O(number of slabs), whatever their size.
+  [[nodiscard]] Snapshot snapshot() const;
+
+ private:
+  class Stack;
+  std::unique_ptr<Stack> stack_;
+};
+
+}  // namespace loft
