@@ -31,15 +31,17 @@ std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index) {
   return found;
 }
 
+bool are_too_near(double lower, double upper) {
+  constexpr double least_gap = 0x1p-40;  // relative to the height
+  return upper - lower < least_gap * std::max(std::abs(lower), std::abs(upper));
+}
+
 namespace {
 
-/// Between slices there must be room for heights that are different numbers.
 void check_gaps(std::span<const Height> heights) {
-  constexpr double least_gap = 0x1p-40;  // relative to the height
   std::vector<Defect> found;
   for (std::size_t i = 0; i + 1 < heights.size(); ++i) {
-    const double height = std::max(std::abs(heights[i].z), std::abs(heights[i + 1].z));
-    if (heights[i + 1].z - heights[i].z < least_gap * height)
+    if (are_too_near(heights[i].z, heights[i + 1].z))
       found.push_back(
           {DefectKind::slices_too_near,
            heights[i + 1].z,

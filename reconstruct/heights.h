@@ -19,6 +19,9 @@ struct Height {
   std::vector<std::uint32_t> slices;
 };
 
+/// Whether two heights leave no room for others between them: they need to be different numbers.
+[[nodiscard]] bool are_too_near(double lower, double upper);
+
 /// The heights of slices, ascending; `z` are theirs, in the order of the input. Notes those that
 /// are merged. Throws InputError where two are nearer than rounding allows.
 [[nodiscard]] std::vector<Height> find_heights(std::span<const double> z,

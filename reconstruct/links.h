@@ -35,6 +35,8 @@ struct EndLink {
   std::uint32_t lower = 0;  ///< index of the piece that ends
   std::uint32_t upper = 0;  ///< index of the piece that begins
   LinkReason reason = LinkReason::nearest;
+
+  friend bool operator==(const EndLink&, const EndLink&) = default;
 };
 
 /// Matches what ends in a slab with what begins there: parts with parts, cavities with cavities.

@@ -2,21 +2,24 @@
 #include "reconstruct/reconstruction.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
+#include "reconstruct/caps.h"
 #include "reconstruct/heights.h"
 #include "reconstruct/link_orders.h"
 #include "reconstruct/links.h"
+#include "reconstruct/live_surface.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/refine.h"
 #include "reconstruct/region.h"
+#include "reconstruct/sewing.h"
 #include "reconstruct/smooth.h"
 #include "reconstruct/tiles.h"
 
@@ -26,51 +29,90 @@ namespace {
 
 /// A slice of the stack and what has been made of it.
 struct Station {
-  std::shared_ptr<const Slice> slice;
-  std::uint32_t number = 0;  // in order of arrival
+  std::shared_ptr<const Slice> slice;   // null beyond the ends
+  std::uint32_t number = Origin::none;  // in order of arrival
   std::shared_ptr<const Region> region;
   std::shared_ptr<const SliceShape> shape;  // where the surface is bent
   std::vector<Defect> repairs;
-
-  [[nodiscard]] bool is_empty() const { return region->is_empty(); }
+  Rim rim;
 };
 
 using Stations = std::map<double, Station>;
+
+/// A layer of the surface, and where it is in it.
+using Faces = std::vector<Surface::FaceHandle>;
 
 /// A slab of the stack: what is in the surface, and what its neighbours look at.
 struct LiveSlab {
   std::shared_ptr<const FrozenSlab> frozen;
   std::shared_ptr<const Pieces> found;  // before ends were linked
   std::vector<EndLink> links;
+  std::array<std::shared_ptr<const SliceShape>, 4> shapes;  // what it was bent by
+  Faces faces;
+  Faces bottom;  // of the caps
+  Faces top;
 };
 
-InputError wrong(double z, const std::string& message) {
-  return InputError("slice at z = " + std::to_string(z) + ' ' + message);
+using Slabs = std::map<double, LiveSlab>;
+
+/// An edit: what is at a height from then on, if anything.
+using Edits = std::vector<std::pair<double, std::optional<Slice>>>;
+
+/// The shortest text that gives the number back.
+std::string text(double number) {
+  std::array<char, 32> digits{};
+  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
+  return {digits.data(), end};
+}
+
+InputError no_slice(double z) {
+  return InputError("there is no slice at z = " + text(z) +
+                    "; insert it, or give the height of one that is there");
+}
+
+/// Whether two regions are the same, but for the number of their slice.
+bool are_same(const Region& a, const Region& b) {
+  const auto is_same_origin = [](const Origin& p, const Origin& q) {
+    return p.kind == q.kind && p.contour == q.contour && p.point == q.point;
+  };
+  return a.points == b.points && a.loop_vertices == b.loop_vertices &&
+         a.loop_starts == b.loop_starts && std::ranges::equal(a.origins, b.origins, is_same_origin);
 }
 
 }  // namespace
 
-/// By heights; slabs by the heights they begin at.
+/// Slices by their heights; slabs by the heights they begin at.
 class Reconstruction::Stack {
  public:
-  explicit Stack(Options options) : options_(std::move(options)) {
+  explicit Stack(Options options) : options_(std::move(options)), live_(options_.cap == Cap::open) {
     if (options_.simplify || !options_.links.empty())
       throw std::invalid_argument("simplify and links need the whole stack");
   }
 
-  SurfaceChange apply(std::vector<std::pair<double, std::optional<Slice>>> edits);
+  SurfaceChange apply(Edits edits);
 
+  [[nodiscard]] const Surface& surface() const { return live_.surface(); }
+  void collect_garbage();
   [[nodiscard]] const Stations& stations() const { return stations_; }
   [[nodiscard]] Snapshot snapshot() const;
   [[nodiscard]] std::vector<SlabInfo> slabs() const;
   [[nodiscard]] std::vector<Defect> repairs() const;
 
-  Surface surface;
-
  private:
+  class Edit;
+
+  /// The slices between which the surface is, the first and the last one that are not empty; none
+  /// if there are not two such.
+  using Range = std::pair<Stations::iterator, Stations::iterator>;
+  [[nodiscard]] std::optional<Range> range();
+
   Options options_;
   Stations stations_;
-  std::map<double, LiveSlab> slabs_;
+  Slabs slabs_;
+  std::optional<std::pair<double, double>> ends_;  // the heights between which there are slabs
+  Station below_;                                  // for domes
+  Station above_;
+  LiveSurface live_;
   std::uint32_t next_number_ = 0;
   std::uint32_t next_id_ = 0;
   cdt::Triangulation memory_;
@@ -95,31 +137,33 @@ SurfaceChange Reconstruction::insert(Slice slice) {
 }
 
 SurfaceChange Reconstruction::replace(double z, Slice slice) {
-  if (find(z) == nullptr) throw wrong(z, "is not there");
+  if (find(z) == nullptr) throw no_slice(z);
   if (slice.z == z) return stack_->apply({{z, std::move(slice)}});
-  if (find(slice.z) != nullptr) throw wrong(slice.z, "is there already");
+  if (find(slice.z) != nullptr)
+    throw InputError("there is a slice at z = " + text(slice.z) +
+                     " already; remove it first, or replace it");
   const double new_z = slice.z;
   return stack_->apply({{z, std::nullopt}, {new_z, std::move(slice)}});
 }
 
 SurfaceChange Reconstruction::remove(double z) {
-  if (find(z) == nullptr) throw wrong(z, "is not there");
+  if (find(z) == nullptr) throw no_slice(z);
   return stack_->apply({{z, std::nullopt}});
 }
 
 SurfaceChange Reconstruction::move_contour(double z, std::size_t contour,
                                            std::vector<cdt::Point> points) {
   const Slice* there = find(z);
-  if (there == nullptr) throw wrong(z, "is not there");
+  if (there == nullptr) throw no_slice(z);
   if (contour >= there->contours.size())
-    throw wrong(z, "has no contour " + std::to_string(contour));
+    throw InputError("the slice at z = " + text(z) + " has no contour " + std::to_string(contour));
   Slice slice = *there;
   slice.contours[contour].points = std::move(points);
   return stack_->apply({{z, std::move(slice)}});
 }
 
-const Surface& Reconstruction::surface() const { return stack_->surface; }
-void Reconstruction::collect_garbage() { stack_->surface.garbage_collection(); }
+const Surface& Reconstruction::surface() const { return stack_->surface(); }
+void Reconstruction::collect_garbage() { stack_->collect_garbage(); }
 std::size_t Reconstruction::slice_count() const { return stack_->stations().size(); }
 
 const Slice* Reconstruction::find(double z) const {
@@ -137,62 +181,514 @@ std::vector<SlabInfo> Reconstruction::slabs() const { return stack_->slabs(); }
 std::vector<Defect> Reconstruction::repairs() const { return stack_->repairs(); }
 Snapshot Reconstruction::snapshot() const { return stack_->snapshot(); }
 
-SurfaceChange Reconstruction::Stack::apply(
-    std::vector<std::pair<double, std::optional<Slice>>> edits) {
-  Stations stations = stations_;
-  SurfaceChange change;
-  for (auto& [z, slice] : edits) {
-    stations.erase(z);
-    if (!slice) continue;
-    if (auto fatal = find_unusable(*slice, next_number_); !fatal.empty())
-      throw InputError(std::move(fatal));
-    Station station{std::make_shared<const Slice>(std::move(*slice)), next_number_++, {}, {}, {}};
-    const Slice* part = station.slice.get();
-    station.region = std::make_shared<const Region>(clean(
-        Height{z, {station.number}}, std::span(&part, 1), options_, station.repairs, memory_));
-    stations.emplace(z, std::move(station));
-  }
-  std::vector<Slice> all;
-  std::vector<double> heights;
-  for (const auto& [z, station] : stations) heights.push_back(z);
-  std::vector<Defect> repairs;
-  static_cast<void>(find_heights(heights, repairs));
-  for (const auto& [z, slab] : slabs_) change.removed.push_back(slab.frozen->info.id);
-  std::ranges::sort(change.removed);
-  change.faces_removed = surface.n_faces();
-  change.vertices_removed = surface.n_vertices();
+std::optional<Reconstruction::Stack::Range> Reconstruction::Stack::range() {
+  const auto is_filled = [](const auto& station) { return !station.second.region->is_empty(); };
+  const auto first = std::ranges::find_if(stations_, is_filled);
+  if (first == stations_.end()) return {};
+  auto last = std::prev(stations_.end());
+  while (!is_filled(*last)) --last;
+  if (first == last) return {};
+  return Range{first, last};
+}
 
-  std::vector<const Station*> filled;
-  for (const auto& [z, station] : stations) filled.push_back(&station);
-  while (!filled.empty() && filled.back()->is_empty()) filled.pop_back();
-  while (!filled.empty() && filled.front()->is_empty()) filled.erase(filled.begin());
-  std::map<double, LiveSlab> slabs;
-  const bool is_capped = options_.cap == Cap::flat;
-  for (std::size_t i = 0; i + 1 < filled.size(); ++i) {
-    const auto& lower = filled[i]->region;
-    const auto& upper = filled[i + 1]->region;
-    OrderedTiles made = tile_by_orders(*lower, *upper, options_, {}, workspace_);
-    auto tiles = std::make_shared<const TileSet>(std::move(made.tiles));
-    auto pieces = std::make_shared<const Pieces>(std::move(made.pieces));
-    LiveSlab slab;
-    slab.frozen =
-        std::make_shared<const FrozenSlab>(FrozenSlab{{next_id_++, lower->z, upper->z},
-                                                      lower,
-                                                      upper,
-                                                      tiles,
-                                                      tiles,
-                                                      pieces,
-                                                      is_capped && i == 0,
-                                                      is_capped && i + 2 == filled.size()});
-    change.added.push_back(slab.frozen->info);
-    slabs.emplace(lower->z, std::move(slab));
+/// One edit on its way: what it makes is made first, then taken over.
+class Reconstruction::Stack::Edit {
+ public:
+  Edit(Stack& stack, Edits edits) : stack_(stack), edits_(std::move(edits)) {}
+
+  SurfaceChange run() {
+    prepare();
+    try {
+      exchange_slices();
+      if (!is_quiet_) {
+        list_gaps();
+        for (std::size_t i = 0; i < gaps_.size(); ++i) tile(gaps_[i]);
+        for (std::size_t i = 0; i < gaps_.size(); ++i) link(i);
+        for (std::size_t i = 0; i < gaps_.size(); ++i) bend(i);
+        for (Gap& gap : gaps_) freeze(gap);
+      }
+    } catch (...) {
+      take_back();
+      throw;
+    }
+    if (!is_quiet_) take_over();
+    return std::move(change_);
   }
-  stations_ = std::move(stations);
-  slabs_ = std::move(slabs);
-  surface = snapshot().surface(1);
-  change.faces_added = surface.n_faces();
-  change.vertices_added = surface.n_vertices();
-  return change;
+
+ private:
+  /// A slab that is to be: between two slices that follow each other in the surface.
+  struct Gap {
+    Station* lower;
+    Station* upper;
+    bool is_first;  // of the stack
+    bool is_last;
+    LiveSlab* there = nullptr;       // where it is there already
+    std::optional<LiveSlab> made{};  // where it is not, or changes
+    std::optional<TileSet> tiles{};  // before ends are linked, and after
+    std::optional<Pieces> pieces{};
+    bool keeps_tiles = false;  // only its caps change
+
+    [[nodiscard]] const std::shared_ptr<const Pieces>& found() const {
+      return made ? made->found : there->found;
+    }
+    [[nodiscard]] double height() const { return upper->region->z - lower->region->z; }
+  };
+
+  // --- Slices ---
+
+  void prepare() {
+    std::vector<Defect> fatal;
+    for (const auto& [z, slice] : edits_) {
+      if (!slice) continue;
+      std::ranges::move(find_unusable(*slice, stack_.next_number_), std::back_inserter(fatal));
+      check_gap(z, fatal);
+    }
+    if (!fatal.empty()) throw InputError(std::move(fatal));
+    for (auto& [z, slice] : edits_) {
+      if (!slice) {
+        is_quiet_ = false;
+        stations_.emplace_back();
+        continue;
+      }
+      stations_.push_back(make_station(z, std::move(*slice)));
+    }
+  }
+
+  [[nodiscard]] bool goes(double z) const {
+    return std::ranges::any_of(edits_,
+                               [&](const auto& edit) { return edit.first == z && !edit.second; });
+  }
+
+  void check_gap(double z, std::vector<Defect>& fatal) const {
+    const auto note = [&](double other) {
+      fatal.push_back({DefectKind::slices_too_near,
+                       z,
+                       stack_.next_number_,
+                       {},
+                       {},
+                       {},
+                       0,
+                       "is nearer to the slice at z = " + text(other) +
+                           " than rounding allows at that height; give heights from an origin "
+                           "nearby, or replace that slice"});
+    };
+    const auto above = stack_.stations_.upper_bound(z);
+    if (above != stack_.stations_.end() && !goes(above->first) && are_too_near(z, above->first))
+      note(above->first);
+    const auto at = stack_.stations_.lower_bound(z);
+    if (at == stack_.stations_.begin()) return;
+    const double below = std::prev(at)->first;
+    if (!goes(below) && are_too_near(below, z)) note(below);
+  }
+
+  [[nodiscard]] Station make_station(double z, Slice slice) {
+    Station station;
+    station.slice = std::make_shared<const Slice>(std::move(slice));
+    station.number = stack_.next_number_;
+    const Slice* part = station.slice.get();
+    station.region =
+        std::make_shared<const Region>(clean(Height{z, {station.number}}, std::span(&part, 1),
+                                             stack_.options_, station.repairs, stack_.memory_));
+    std::ranges::copy(station.repairs, std::back_inserter(change_.repairs));
+    const auto there = stack_.stations_.find(z);
+    if (there != stack_.stations_.end() && are_same(*there->second.region, *station.region)) {
+      station.number = there->second.number;
+      station.region = there->second.region;
+      station.shape = there->second.shape;
+      station.rim = there->second.rim;
+      return station;
+    }
+    is_quiet_ = false;
+    ++stack_.next_number_;
+    add_shape(station);
+    station.rim.resize(station.region->loop_vertices.size());
+    return station;
+  }
+
+  void add_shape(Station& station) const {
+    if (stack_.options_.smooth) station.shape = std::make_shared<const SliceShape>(*station.region);
+  }
+
+  void exchange_slices() {
+    old_below_ = stack_.below_;
+    old_above_ = stack_.above_;
+    old_.reserve(edits_.size());
+    for (std::size_t i = 0; i < edits_.size(); ++i) {
+      const double z = edits_[i].first;
+      old_.push_back(stack_.stations_.extract(z));
+      if (stations_[i].slice != nullptr) stack_.stations_.emplace(z, std::move(stations_[i]));
+    }
+  }
+
+  void take_back() {
+    for (std::size_t i = 0; i < old_.size(); ++i) stack_.stations_.erase(edits_[i].first);
+    for (auto& node : old_)
+      if (!node.empty()) stack_.stations_.insert(std::move(node));
+    stack_.below_ = std::move(old_below_);
+    stack_.above_ = std::move(old_above_);
+  }
+
+  // --- What there is to be made ---
+
+  /// The slabs near the edit, as they are to be; those that are there and are not among them go.
+  void list_gaps() {
+    const auto range = stack_.range();
+    if (!range) {
+      for (auto& [z, slab] : stack_.slabs_) gone_.push_back(z);
+      return;
+    }
+    auto [first, last] = *range;
+    double low = edits_.front().first;
+    double high = low;
+    const auto widen = [&](double z) {
+      low = std::min(low, z);
+      high = std::max(high, z);
+    };
+    for (const auto& [z, slice] : edits_) widen(z);
+    if (stack_.ends_) {
+      if (stack_.ends_->first != first->first) widen(std::min(stack_.ends_->first, first->first));
+      if (stack_.ends_->first != first->first) widen(std::max(stack_.ends_->first, first->first));
+      if (stack_.ends_->second != last->first) widen(std::min(stack_.ends_->second, last->first));
+      if (stack_.ends_->second != last->first) widen(std::max(stack_.ends_->second, last->first));
+    } else {
+      widen(first->first);
+      widen(last->first);
+    }
+    ends_ = {first->first, last->first};
+
+    constexpr int reach = 6;  // slices on either side that may matter
+    auto from = stack_.stations_.lower_bound(std::clamp(low, first->first, last->first));
+    for (int i = 0; i < reach && from != first; ++i) --from;
+    auto to = stack_.stations_.upper_bound(std::clamp(high, first->first, last->first));
+    if (to != stack_.stations_.begin()) --to;
+    for (int i = 0; i < reach && to != last; ++i) ++to;
+    const bool is_bottom = from == first;
+    const bool is_top = to == last;
+
+    if (stack_.options_.cap == Cap::dome) round_off(first, last);
+    if (stack_.options_.cap == Cap::dome && is_bottom) line_.push_back(&stack_.below_);
+    for (auto station = from;; ++station) {
+      line_.push_back(&station->second);
+      if (station == to) break;
+    }
+    if (stack_.options_.cap == Cap::dome && is_top) line_.push_back(&stack_.above_);
+    for (std::size_t i = 0; i + 1 < line_.size(); ++i)
+      gaps_.push_back(
+          {line_[i], line_[i + 1], is_bottom && i == 0, is_top && i + 2 == line_.size()});
+    find_present(is_bottom, is_top);
+  }
+
+  /// What is beyond the ends, for domes.
+  void round_off(Stations::iterator first, Stations::iterator last) {
+    const auto update = [&](Station& station, const Region& end, const Region& before) {
+      Region region = beyond(end, before);
+      if (station.region != nullptr && station.region->z == region.z) return;
+      station = {};
+      station.region = std::make_shared<const Region>(std::move(region));
+      add_shape(station);
+    };
+    update(stack_.below_, *first->second.region, *std::next(first)->second.region);
+    update(stack_.above_, *last->second.region, *std::prev(last)->second.region);
+  }
+
+  void find_present(bool is_bottom, bool is_top) {
+    const double low = line_.front()->region->z;
+    const double high = line_.back()->region->z;
+    auto slab = is_bottom ? stack_.slabs_.begin() : stack_.slabs_.lower_bound(low);
+    for (; slab != stack_.slabs_.end() && (is_top || slab->first < high); ++slab) {
+      auto& [z, there] = *slab;
+      const auto gap = std::ranges::find_if(gaps_, [&](const Gap& one) {
+        return one.lower->region == there.frozen->lower && one.upper->region == there.frozen->upper;
+      });
+      if (gap == gaps_.end()) {
+        gone_.push_back(z);
+      } else {
+        gap->there = &there;
+      }
+    }
+  }
+
+  // --- Making it ---
+
+  void tile(Gap& gap) {
+    if (gap.there != nullptr) return;
+    gap.made.emplace();
+    tile_by_overlap(gap);
+    gap.made->found = std::make_shared<const Pieces>(*gap.pieces);
+  }
+
+  void tile_by_overlap(Gap& gap) {
+    OrderedTiles tiled = tile_by_orders(*gap.lower->region, *gap.upper->region, stack_.options_, {},
+                                        stack_.workspace_);
+    gap.tiles = std::move(tiled.tiles);
+    gap.pieces = std::move(tiled.pieces);
+  }
+
+  /// Whether all that a slab looks at is known: its neighbours, if it has any.
+  [[nodiscard]] bool has_neighbours(std::size_t i) const {
+    return (i > 0 || gaps_[i].is_first) && (i + 1 < gaps_.size() || gaps_[i].is_last);
+  }
+
+  [[nodiscard]] SlabPieces view(std::size_t i) const {
+    if (i >= gaps_.size()) return {};
+    return {gaps_[i].found().get(), gaps_[i].height()};
+  }
+
+  void link(std::size_t i) {
+    Gap& gap = gaps_[i];
+    if (!has_neighbours(i)) return;
+    std::vector<EndLink> links;
+    if (stack_.options_.link == LinkRule::automatic)
+      links = match_ends(i == 0 ? SlabPieces() : view(i - 1), view(i), view(i + 1),
+                         stack_.options_.max_shift, {});
+    if (gap.there != nullptr) {
+      if (links == gap.there->links) return;
+      gap.made.emplace();
+      gap.made->found = gap.there->found;
+      tile_by_overlap(gap);
+    }
+    link_ends(*gap.lower->region, *gap.upper->region, *gap.tiles, *gap.pieces, links);
+    gap.made->links = std::move(links);
+  }
+
+  using Shapes = std::array<std::shared_ptr<const SliceShape>, 4>;
+
+  [[nodiscard]] Shapes shapes_around(std::size_t i) const {
+    Shapes shapes;
+    for (std::size_t k = 0; k < shapes.size(); ++k)
+      if (i + k >= 1 && i + k - 1 < line_.size()) shapes[k] = line_[i + k - 1]->shape;
+    return shapes;
+  }
+
+  /// Brings the tiles of a slab into their final shape.
+  void bend(std::size_t i) {
+    Gap& gap = gaps_[i];
+    const Options& options = stack_.options_;
+    const Shapes shapes = shapes_around(i);
+    if (!gap.made) {
+      if (!options.smooth || !has_neighbours(i) || shapes == gap.there->shapes) return;
+      gap.made.emplace();
+      gap.made->found = gap.there->found;
+      gap.made->links = gap.there->links;
+    }
+    const bool is_tiled = gap.tiles.has_value();
+    auto linked = is_tiled ? std::make_shared<const TileSet>(std::move(*gap.tiles))
+                           : gap.there->frozen->linked;
+    auto pieces = is_tiled ? std::make_shared<const Pieces>(std::move(*gap.pieces))
+                           : gap.there->frozen->pieces;
+    if (gap.made->found != nullptr && is_tiled && gap.made->links.empty())
+      pieces = gap.made->found;  // the same
+    auto tiles = linked;
+    const Region& lower = *gap.lower->region;
+    const Region& upper = *gap.upper->region;
+    if (options.smooth) {
+      Surroundings around{};
+      for (std::size_t k = 0; k < around.size(); ++k) around[k] = shapes[k].get();
+      tiles = std::make_shared<const TileSet>(smooth(lower, upper, around, *pieces, *linked));
+    }
+    if (options.max_edge || options.target_edge)
+      tiles = std::make_shared<const TileSet>(refine(lower, upper, *tiles, options));
+    gap.made->shapes = shapes;
+    gap.made->frozen = std::make_shared<const FrozenSlab>(FrozenSlab{{0, lower.z, upper.z},
+                                                                     gap.lower->region,
+                                                                     gap.upper->region,
+                                                                     std::move(tiles),
+                                                                     std::move(linked),
+                                                                     std::move(pieces),
+                                                                     false,
+                                                                     false});
+  }
+
+  /// Gives a slab that is new or changed its number.
+  void freeze(Gap& gap) {
+    const bool is_capped = stack_.options_.cap == Cap::flat;
+    const bool has_bottom = is_capped && gap.is_first;
+    const bool has_top = is_capped && gap.is_last;
+    if (!gap.made) {
+      const FrozenSlab& there = *gap.there->frozen;
+      if (there.has_bottom_cap == has_bottom && there.has_top_cap == has_top) return;
+      gap.keeps_tiles = true;
+      gap.made.emplace();
+      gap.made->frozen = gap.there->frozen;
+      gap.made->found = gap.there->found;
+      gap.made->links = gap.there->links;
+      gap.made->shapes = gap.there->shapes;
+    }
+    auto frozen = std::make_shared<FrozenSlab>(*gap.made->frozen);
+    frozen->info.id = stack_.next_id_++;
+    frozen->has_bottom_cap = has_bottom;
+    frozen->has_top_cap = has_top;
+    if (!frozen->tiles->is_linked)
+      change_.repairs.push_back(unlinked_slices(*frozen->lower, *frozen->upper));
+    change_.added.push_back(frozen->info);
+    gap.made->frozen = std::move(frozen);
+  }
+
+  // --- Taking it over ---
+
+  /// A layer of the surface as it is to be, from low to high.
+  struct Unit {
+    Gap* gap;
+    enum class Kind { bottom_cap, slab, top_cap } kind;
+    bool is_new;
+    Faces* faces;  // where they are kept
+  };
+
+  void take_over() {
+    for (const double z : gone_) let_go(stack_.slabs_.find(z)->second);
+    for (Gap& gap : gaps_) list_units(gap);
+    for (std::size_t i = 0; i < units_.size();) {
+      std::size_t end = i;
+      while (end < units_.size() && units_[end].is_new) ++end;
+      if (end > i) splice(i, end);
+      i = std::max(end, i + 1);
+    }
+    if (!removed_.empty())
+      add(stack_.live_.splice({{}, 0, 0, {}, {}, std::move(removed_), std::move(rims_)}));
+
+    for (const double z : gone_) stack_.slabs_.erase(z);
+    for (Gap& gap : gaps_)
+      if (gap.made) stack_.slabs_[gap.lower->region->z] = std::move(*gap.made);
+    stack_.ends_ = ends_;
+    std::ranges::sort(change_.removed);
+  }
+
+  void let_go(const LiveSlab& slab) {
+    change_.removed.push_back(slab.frozen->info.id);
+    for (const double z : {slab.frozen->info.low, slab.frozen->info.high}) {
+      const auto station = stack_.stations_.find(z);
+      if (station != stack_.stations_.end()) rims_.push_back(&station->second.rim);
+    }
+    for (const Faces* faces : {&slab.bottom, &slab.faces, &slab.top})
+      removed_.insert(removed_.end(), faces->begin(), faces->end());
+  }
+
+  void list_units(Gap& gap) {
+    LiveSlab* const there = gap.there;
+    LiveSlab& slab = gap.made ? *gap.made : *there;
+    if (gap.made && there != nullptr) {
+      change_.removed.push_back(there->frozen->info.id);
+      rims_.insert(rims_.end(), {&gap.lower->rim, &gap.upper->rim});
+      for (auto faces : {&LiveSlab::bottom, &LiveSlab::faces, &LiveSlab::top}) {
+        const bool is_kept = faces == &LiveSlab::faces    ? gap.keeps_tiles
+                             : faces == &LiveSlab::bottom ? slab.frozen->has_bottom_cap
+                                                          : slab.frozen->has_top_cap;
+        if (is_kept) {
+          slab.*faces = there->*faces;
+        } else {
+          removed_.insert(removed_.end(), (there->*faces).begin(), (there->*faces).end());
+        }
+      }
+      if (gap.keeps_tiles) stack_.live_.set_slab(slab.faces, slab.frozen->info.id);
+      stack_.live_.set_slab(slab.bottom, slab.frozen->info.id);
+      stack_.live_.set_slab(slab.top, slab.frozen->info.id);
+    }
+    if (slab.frozen->has_bottom_cap)
+      units_.push_back({&gap, Unit::Kind::bottom_cap, slab.bottom.empty(), &slab.bottom});
+    units_.push_back({&gap, Unit::Kind::slab, gap.made && !gap.keeps_tiles, &slab.faces});
+    if (slab.frozen->has_top_cap)
+      units_.push_back({&gap, Unit::Kind::top_cap, slab.top.empty(), &slab.top});
+  }
+
+  [[nodiscard]] static const FrozenSlab& frozen(const Unit& unit) {
+    return *(unit.gap->made ? *unit.gap->made : *unit.gap->there).frozen;
+  }
+
+  [[nodiscard]] static Layer layer(const Unit& unit) {
+    const FrozenSlab& slab = frozen(unit);
+    if (unit.kind == Unit::Kind::bottom_cap) {
+      Layer cap = bottom_cap(*slab.lower);
+      cap.slab = slab.info.id;
+      return cap;
+    }
+    if (unit.kind == Unit::Kind::top_cap)
+      return top_cap(*slab.upper, slab.info.id, slab.lower->slice);
+    return {slab.lower.get(), slab.upper.get(), *slab.tiles, slab.info.id, slab.lower->slice};
+  }
+
+  [[nodiscard]] static RimmedSlice below(const Unit& unit) {
+    if (unit.kind == Unit::Kind::bottom_cap) return {};
+    Station& station = unit.kind == Unit::Kind::slab ? *unit.gap->lower : *unit.gap->upper;
+    return {station.region.get(), &station.rim};
+  }
+  [[nodiscard]] static RimmedSlice above(const Unit& unit) {
+    if (unit.kind == Unit::Kind::top_cap) return {};
+    Station& station = unit.kind == Unit::Kind::slab ? *unit.gap->upper : *unit.gap->lower;
+    return {station.region.get(), &station.rim};
+  }
+
+  /// Puts new layers into the surface. Where contours of the outer slices touch, what comes and
+  /// what stays may touch, too: then that is sewn anew with it.
+  void splice(std::size_t begin, std::size_t end) {
+    const auto is_simple_slice = [](const RimmedSlice& slice) {
+      return slice.region == nullptr || is_simple(*slice.region);
+    };
+    std::size_t context_begin = begin;
+    std::size_t context_end = end;
+    Splice splice;
+    if (!is_simple_slice(below(units_[begin])) || !is_simple_slice(above(units_[end - 1]))) {
+      context_begin = begin - std::min<std::size_t>(begin, 2);
+      context_end = std::min(units_.size(), end + 2);
+      const std::size_t outer_begin = begin - std::min<std::size_t>(begin, 1);
+      const std::size_t outer_end = std::min(units_.size(), end + 1);
+      for (std::size_t i = outer_begin; i < outer_end; ++i)
+        splice.present.push_back(i < begin || i >= end ? units_[i].faces : nullptr);
+      begin = outer_begin;
+      end = outer_end;
+      for (const Faces* faces : splice.present)
+        if (faces != nullptr) removed_.insert(removed_.end(), faces->begin(), faces->end());
+    }
+    splice.first = begin - context_begin;
+    splice.last = end - context_begin;
+    for (std::size_t i = context_begin; i < context_end; ++i)
+      splice.layers.push_back(layer(units_[i]));
+    for (std::size_t i = begin; i < end; ++i) splice.slices.push_back(below(units_[i]));
+    splice.slices.push_back(above(units_[end - 1]));
+    splice.removed = std::exchange(removed_, {});
+    splice.rims = std::exchange(rims_, {});
+    Spliced spliced = stack_.live_.splice(std::move(splice));
+    for (std::size_t i = begin; i < end; ++i)
+      *units_[i].faces = std::move(spliced.faces[i - begin]);
+    add(spliced);
+  }
+
+  void add(const Spliced& spliced) {
+    change_.vertices_added += spliced.vertices_added;
+    change_.vertices_removed += spliced.vertices_removed;
+    change_.faces_added += spliced.faces_added;
+    change_.faces_removed += spliced.faces_removed;
+    if (!spliced.bounds) return;
+    change_.bounds = change_.bounds ? joined(*change_.bounds, *spliced.bounds) : *spliced.bounds;
+  }
+
+  Stack& stack_;
+  Edits edits_;
+  bool is_quiet_ = true;  // no region changes
+  std::vector<Station> stations_;
+  std::vector<Stations::node_type> old_;
+  Station old_below_;
+  Station old_above_;
+  std::optional<std::pair<double, double>> ends_;
+  std::vector<Station*> line_;  // the slices near the edit
+  std::vector<Gap> gaps_;       // between them
+  std::vector<double> gone_;    // where slabs begin that go
+  std::vector<Unit> units_;
+  Faces removed_;
+  std::vector<Rim*> rims_;  // of the slices at the faces that go
+  SurfaceChange change_;
+};
+
+SurfaceChange Reconstruction::Stack::apply(Edits edits) {
+  return Edit(*this, std::move(edits)).run();
+}
+
+void Reconstruction::Stack::collect_garbage() {
+  std::vector<Faces*> faces;
+  std::vector<Rim*> rims;
+  for (auto& [z, slab] : slabs_)
+    for (Faces* some : {&slab.bottom, &slab.faces, &slab.top}) faces.push_back(some);
+  for (auto& [z, station] : stations_) rims.push_back(&station.rim);
+  live_.collect_garbage(faces, rims);
 }
 
 Snapshot Reconstruction::Stack::snapshot() const {

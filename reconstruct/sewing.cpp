@@ -405,6 +405,7 @@ void Sewing::separate(std::uint32_t layer) {
   for (const Fan& fan : state.fans) {
     const auto number = static_cast<std::uint32_t>(doubled_.size()) | VertexNumbers::doubled_mark;
     doubled_.push_back({place(fan.front()), origin(fan.front())});
+    doubled_points_.push_back(slice_point(fan.front()));
     for (const HalfEdge corner : fan) set_node(corner, number);
   }
   split_double_edges(state.crowds);
@@ -419,11 +420,32 @@ void Sewing::separate(std::uint32_t layer) {
 
 Origin Sewing::origin(HalfEdge corner) const {
   const State& state = at(corner.layer);
-  std::uint32_t node = state.node(corner.index);
+  const std::uint32_t node = state.node(corner.index);
+  if ((node & VertexNumbers::midpoint_mark) == VertexNumbers::midpoint_mark)
+    return midpoints_[node & number_bits].origin;
+  if ((node & VertexNumbers::doubled_mark) != 0) return doubled_[node & number_bits].origin;
   if (node < state.lower_count) return state.layer.lower->origins[node];
   if (node < state.contour_count) return state.layer.upper->origins[node - state.lower_count];
   const InnerVertex& vertex = state.layer.tiles.inner[node - state.contour_count];
   return {vertex.kind, state.layer.slice, Origin::none, Origin::none};
+}
+
+Sewing::SlicePoint Sewing::slice_point(HalfEdge corner) const {
+  const State& state = at(corner.layer);
+  const std::uint32_t node = state.node(corner.index);
+  if (node < state.lower_count) return {corner.layer, node};
+  if (node < state.contour_count) return {corner.layer + 1, node - state.lower_count};
+  return {};
+}
+
+std::uint32_t Sewing::contour_node(HalfEdge corner) const {
+  const State& state = at(corner.layer);
+  const std::uint32_t node = state.node(corner.index);
+  const bool is_doubled = (node & VertexNumbers::midpoint_mark) == VertexNumbers::doubled_mark;
+  if (!is_doubled) return node < state.contour_count ? node : none;
+  const auto [layer, point] = doubled_points_[node & number_bits];
+  if (layer == corner.layer) return point;
+  return layer == corner.layer + 1 ? state.lower_count + point : none;
 }
 
 void Sewing::set_node(HalfEdge corner, std::uint32_t node) {

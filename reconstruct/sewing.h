@@ -90,6 +90,10 @@ class Sewing {
   [[nodiscard]] std::uint32_t vertex(HalfEdge corner) const;
   /// Where a corner of a final layer is.
   [[nodiscard]] Vec3 place(HalfEdge corner) const;
+  [[nodiscard]] Origin origin(HalfEdge corner) const;
+  /// The node of a corner of a final layer that it had before it was doubled, if it is a point of
+  /// one of the layer's slices; otherwise a number that no such point has.
+  [[nodiscard]] std::uint32_t contour_node(HalfEdge corner) const;
   /// What is known of vertex numbers once all layers are final.
   [[nodiscard]] VertexNumbers numbers() const {
     return {vertex_count_, static_cast<std::uint32_t>(doubled_.size())};
@@ -109,6 +113,11 @@ class Sewing {
     std::uint32_t low;
     std::uint32_t high;
     std::vector<HalfEdge> half_edges;
+  };
+  /// A point of the slice below a layer; of none for an inner vertex.
+  struct SlicePoint {
+    std::uint32_t layer = Origin::none;
+    std::uint32_t point = 0;
   };
   struct State {
     Layer layer;
@@ -150,7 +159,7 @@ class Sewing {
 
   [[nodiscard]] static HalfEdge prev(HalfEdge h) { return next(next(h)); }
   [[nodiscard]] Vec3 apex(HalfEdge h) const { return place(prev(h)); }
-  [[nodiscard]] Origin origin(HalfEdge corner) const;
+  [[nodiscard]] SlicePoint slice_point(HalfEdge corner) const;
   void set_node(HalfEdge corner, std::uint32_t node);
   void set_mate(HalfEdge h, HalfEdge mate);
   void join(HalfEdge a, HalfEdge b);
@@ -187,6 +196,7 @@ class Sewing {
   std::uint32_t vertex_count_ = 0;
   std::uint64_t face_count_ = 0;
   std::vector<SurfaceVertex> doubled_;
+  std::vector<SlicePoint> doubled_points_;  // what each of them was
   std::vector<SurfaceVertex> midpoints_;
   std::vector<HalfEdge> cut_faces_;
   std::map<HalfEdge, HalfEdge> moved_;  // half-edges that cuts gave another number

@@ -1,0 +1,573 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/live_surface.h"
+
+#include <algorithm>
+#include <unordered_map>
+#include <utility>
+
+#include "reconstruct/defect.h"
+
+namespace loft {
+
+namespace {
+
+using Handle = Surface::HalfedgeHandle;
+using FaceHandle = Surface::FaceHandle;
+using VertexHandle = Surface::VertexHandle;
+using EdgeHandle = Surface::EdgeHandle;
+
+/// Finds the place of a contour edge among the loop vertices of its region.
+class RimIndex {
+ public:
+  explicit RimIndex(const Region& region) : region_(region) {
+    places_.assign(region.points.size(), Origin::none);
+    nexts_.resize(region.loop_vertices.size());
+    others_.assign(region.loop_vertices.size(), Origin::none);
+    for (std::size_t l = 0; l < region.loop_count(); ++l) {
+      const auto loop = region.loop(l);
+      const std::uint32_t first = region.loop_starts[l];
+      for (std::uint32_t k = 0; k < loop.size(); ++k) {
+        nexts_[first + k] = k + 1 == loop.size() ? first : first + k + 1;
+        others_[first + k] = std::exchange(places_[loop[k]], first + k);
+      }
+    }
+  }
+
+  /// Of the edge between two points, from the one to the next on their loop; Origin::none for an
+  /// edge across a cap.
+  [[nodiscard]] std::uint32_t find(std::uint32_t from, std::uint32_t to) const {
+    std::uint32_t place = places_[from];
+    while (place != Origin::none && end(place) != to) place = others_[place];
+    return place;
+  }
+
+ private:
+  [[nodiscard]] std::uint32_t end(std::uint32_t place) const {
+    return region_.loop_vertices[nexts_[place]];
+  }
+
+  const Region& region_;
+  std::vector<std::uint32_t> places_;  // of each point, one among the loop vertices
+  std::vector<std::uint32_t> nexts_;   // of each loop vertex, the one after it
+  std::vector<std::uint32_t> others_;  // of each loop vertex, another one with the same point
+};
+
+}  // namespace
+
+bool is_simple(const Region& region) { return region.loop_vertices.size() == region.points.size(); }
+
+class LiveSurface::Splicing {
+ public:
+  Splicing(LiveSurface& live, Splice splice)
+      : live_(live), surface_(live.surface_), splice_(std::move(splice)) {}
+
+  Spliced run() {
+    sew();
+    static const Region nothing;
+    for (const RimmedSlice& slice : splice_.slices)
+      indices_.emplace_back(slice.region == nullptr ? nothing : *slice.region);
+    list_faces();
+    find_rims();
+    adopt_vertices();
+    choose_faces_that_stay();
+    remove_faces();
+    make_room();
+    make_vertices();
+    make_edges();
+    make_faces();
+    close_boundaries();
+    free_vertices();
+    return std::move(result_);
+  }
+
+ private:
+  /// A face that sewing has made: of a layer that comes, and where it goes.
+  struct Made {
+    std::uint32_t layer;
+    std::uint32_t face;
+    FaceHandle handle;  // where it is, if it stays; then where it was put
+    bool stays = false;
+  };
+
+  // --- Sewing ---
+
+  void sew() {
+    if (splice_.layers.empty()) return;
+    sewing_.add(std::move(splice_.layers), 1);
+    sewing_.finish(1);
+    result_.is_plain = sewing_.doubled().empty() && sewing_.midpoints().empty();
+    const VertexNumbers numbers = sewing_.numbers();
+    vertices_.resize(numbers.final(VertexNumbers::midpoint_mark) + sewing_.midpoints().size());
+  }
+
+  [[nodiscard]] std::uint32_t layer_count() const {
+    return static_cast<std::uint32_t>(splice_.last - splice_.first);
+  }
+  /// Layers that come, by their number among all that are sewn.
+  [[nodiscard]] bool comes(std::uint32_t layer) const {
+    return layer >= splice_.first && layer < splice_.last;
+  }
+  [[nodiscard]] std::uint32_t sewn(std::uint32_t i) const {
+    return static_cast<std::uint32_t>(splice_.first) + i;
+  }
+  [[nodiscard]] std::uint32_t face_count(std::uint32_t layer) const {
+    return sewing_.face_count(layer) + static_cast<std::uint32_t>(sewing_.cuts_of(layer).size());
+  }
+  [[nodiscard]] Made& made(HalfEdge h) {
+    return made_[first_made_[h.layer - splice_.first] + h.face()];
+  }
+  [[nodiscard]] std::uint32_t number(HalfEdge corner) const {
+    return sewing_.numbers().final(sewing_.vertex(corner));
+  }
+  [[nodiscard]] VertexHandle& vertex(HalfEdge corner) { return vertices_[number(corner)]; }
+
+  void list_faces() {
+    for (std::uint32_t i = 0; i < layer_count(); ++i) {
+      first_made_.push_back(static_cast<std::uint32_t>(made_.size()));
+      const auto* present = splice_.present.empty() ? nullptr : splice_.present[i];
+      for (std::uint32_t f = 0; f < face_count(sewn(i)); ++f) {
+        const bool is_present = present != nullptr && f < present->size();
+        made_.push_back({sewn(i), f, is_present ? (*present)[f] : FaceHandle(), is_present});
+      }
+    }
+  }
+
+  /// Calls visit(half-edge) for those of all faces that come.
+  template <class Visit>
+  void for_each_half_edge(Visit visit) {
+    for (const Made& face : made_)
+      for (std::uint32_t k = 0; k < 3; ++k) visit(HalfEdge{face.layer, 3 * face.face + k});
+  }
+
+  // --- Rims ---
+
+  /// A half-edge that lies in a slice: which one, and where on its rim. A layer's faces run along
+  /// the loops of the slice below them, and against those of the slice above.
+  struct RimPlace {
+    std::uint32_t slice;
+    std::uint32_t place;
+    bool is_above;  // the face is above the slice
+  };
+
+  /// The half-edges in slices; sewing lists them by node.
+  void find_rims() {
+    places_.resize(3 * made_.size(), none);
+    for (std::uint32_t i = 0; i < layer_count(); ++i) {
+      const std::uint32_t layer = sewn(i);
+      const auto note = [&](std::uint32_t slice, bool is_above) {
+        return [this, slice, is_above, first = 3 * first_made_[i]](
+                   std::uint32_t h, std::uint32_t from, std::uint32_t to) {
+          const std::uint32_t place =
+              is_above ? indices_[slice].find(from, to) : indices_[slice].find(to, from);
+          if (place == none) return;
+          places_[first + h] = static_cast<std::uint32_t>(rims_.size());
+          rims_.push_back({slice, place, is_above});
+        };
+      };
+      for_each_in_slices(layer, note(i, true), note(i + 1, false));
+    }
+  }
+
+  /// Calls below(h, from, to) and above(h, from, to) for the half-edges that lie in a slice, by the
+  /// points of its region. Those are never cut, and their ends are contour points even where these
+  /// are doubled: so they are known by their places.
+  template <class Below, class Above>
+  void for_each_in_slices(std::uint32_t number, Below below, Above above) {
+    const Layer& layer = sewing_.layer(number);
+    const auto lower_count = static_cast<std::uint32_t>(layer.lower->points.size());
+    const auto contour_count = lower_count + static_cast<std::uint32_t>(layer.upper->points.size());
+    for (std::uint32_t h = 0; h < 3 * face_count(number); ++h) {
+      const auto a = sewing_.contour_node({number, h});
+      const auto b = sewing_.contour_node({number, Sewing::next(h)});
+      if (a >= contour_count || b >= contour_count || (a < lower_count) != (b < lower_count))
+        continue;
+      if (a < lower_count) {
+        below(h, a, b);
+      } else {
+        above(h, a - lower_count, b - lower_count);
+      }
+    }
+  }
+
+  [[nodiscard]] const RimPlace* rim_place(HalfEdge h) const {
+    const std::uint32_t place =
+        places_[3 * (first_made_[h.layer - splice_.first] + h.face()) + h.index % 3];
+    return place == none ? nullptr : &rims_[place];
+  }
+
+  /// The half-edge that is there already for a side in a slice; invalid if there is none.
+  [[nodiscard]] Handle on_rim(HalfEdge h) const {
+    const RimPlace* place = rim_place(h);
+    if (place == nullptr) return Handle();
+    const Handle forward = (*splice_.slices[place->slice].rim)[place->place];
+    if (!forward.is_valid() || place->is_above) return forward;
+    return surface_.opposite_halfedge_handle(forward);
+  }
+
+  // --- What stays ---
+
+  /// Vertices of the outer slices are there already; then those of faces that may stay.
+  void adopt_vertices() {
+    for_each_half_edge([&](HalfEdge h) {
+      const Handle there = on_rim(h);
+      if (!there.is_valid()) return;
+      adopt(h, surface_.from_vertex_handle(there));
+      adopt(Sewing::next(h), surface_.to_vertex_handle(there));
+    });
+    if (splice_.present.empty()) return;
+    for (const Made& face : made_) {
+      if (!face.stays) continue;
+      Handle side = surface_.halfedge_handle(face.handle);
+      for (std::uint32_t k = 0; k < 3; ++k, side = surface_.next_halfedge_handle(side))
+        adopt({face.layer, 3 * face.face + k}, surface_.from_vertex_handle(side));
+    }
+  }
+
+  void adopt(HalfEdge corner, VertexHandle there) {
+    VertexHandle& here = vertex(corner);
+    if (here.is_valid()) return;
+    const Vec3 place = sewing_.place(corner);
+    const Surface::Point& point = surface_.point(there);
+    if (point[0] != place[0] || point[1] != place[1] || point[2] != place[2]) return;
+    const auto [owner, is_new] = owners_.try_emplace(there.idx(), number(corner));
+    if (is_new) here = there;
+  }
+
+  /// A face stays if it has the same corners and, where its neighbour stays, too, is joined to it.
+  void choose_faces_that_stay() {
+    if (splice_.present.empty()) return;
+    std::unordered_map<int, std::uint32_t> numbers;  // of the faces that are there
+    for (std::uint32_t i = 0; i < made_.size(); ++i)
+      if (made_[i].stays) numbers.emplace(made_[i].handle.idx(), i);
+    for (bool is_settled = false; !is_settled;) {
+      is_settled = true;
+      for (Made& face : made_) {
+        if (!face.stays || fits(face, numbers)) continue;
+        face.stays = false;
+        is_settled = false;
+      }
+    }
+  }
+
+  [[nodiscard]] bool fits(const Made& face, const std::unordered_map<int, std::uint32_t>& numbers) {
+    Handle side = surface_.halfedge_handle(face.handle);
+    for (std::uint32_t k = 0; k < 3; ++k, side = surface_.next_halfedge_handle(side)) {
+      const HalfEdge h{face.layer, 3 * face.face + k};
+      if (vertex(h) != surface_.from_vertex_handle(side)) return false;
+      const HalfEdge mate = sewing_.mate(h);
+      const FaceHandle beyond = surface_.face_handle(surface_.opposite_halfedge_handle(side));
+      if (!mate.is_none() && comes(mate.layer) && made(mate).stays && made(mate).handle != beyond)
+        return false;
+      const auto there = beyond.is_valid() ? numbers.find(beyond.idx()) : numbers.end();
+      if (there == numbers.end() || !made_[there->second].stays) continue;
+      if (mate.is_none() || !comes(mate.layer) || &made(mate) != &made_[there->second])
+        return false;
+    }
+    return true;
+  }
+
+  // --- What goes ---
+
+  void mark(VertexHandle v, bool is_deleted) { surface_.status(v).set_deleted(is_deleted); }
+  void mark(FaceHandle f, bool is_deleted) { surface_.status(f).set_deleted(is_deleted); }
+  void mark(EdgeHandle e, bool is_deleted) {
+    surface_.status(e).set_deleted(is_deleted);
+    for (const unsigned i : {0U, 1U})
+      surface_.status(surface_.halfedge_handle(e, i)).set_deleted(is_deleted);
+  }
+
+  void add_to_bounds(const Surface::Point& p) {
+    const Vec3 place{p[0], p[1], p[2]};
+    if (!result_.bounds) result_.bounds = Box3{place, place};
+    result_.bounds = joined(*result_.bounds, {place, place});
+  }
+
+  /// Faces go with the edges that no face is left at. Other edges have one face less; whether they
+  /// get another is seen later.
+  void remove_faces() {
+    std::vector<FaceHandle> staying;
+    for (const Made& face : made_)
+      if (face.stays) staying.push_back(face.handle);
+    for (const FaceHandle f : staying) surface_.status(f).set_tagged(true);
+    for (const FaceHandle f : splice_.removed) {
+      if (surface_.status(f).tagged()) continue;
+      Handle side = surface_.halfedge_handle(f);
+      for (int k = 0; k < 3; ++k, side = surface_.next_halfedge_handle(side)) {
+        touched_.push_back(surface_.from_vertex_handle(side));
+        add_to_bounds(surface_.point(touched_.back()));
+        loose_.push_back(side);
+      }
+      mark(f, true);
+      live_.free_faces_.push_back(f);
+      ++result_.faces_removed;
+    }
+    for (const FaceHandle f : staying) surface_.status(f).set_tagged(false);
+    // A half-edge of two faces that go comes twice: once from either side.
+    for (const Handle h : loose_) {
+      const Handle other = surface_.opposite_halfedge_handle(h);
+      surface_.set_boundary(h);
+      const EdgeHandle e = surface_.edge_handle(h);
+      if (!surface_.is_boundary(other) || surface_.status(e).deleted()) continue;
+      mark(e, true);
+      live_.free_edges_.push_back(e);
+    }
+    // Edges that no face is left at are on no rim any more.
+    for (const RimmedSlice& slice : splice_.slices)
+      if (slice.rim != nullptr) splice_.rims.push_back(slice.rim);
+    for (Rim* const rim : splice_.rims)
+      for (Handle& h : *rim)
+        if (h.is_valid() && surface_.status(surface_.edge_handle(h)).deleted()) h = Handle();
+  }
+
+  // --- What comes ---
+
+  template <class Some>
+  static std::size_t missing(std::size_t needed, const std::vector<Some>& there) {
+    return needed - std::min(needed, there.size());
+  }
+
+  /// Arrays grow by an eighth: doubling would take twice the memory.
+  void make_room() {
+    std::size_t faces = 0;
+    std::vector<bool> is_used(vertices_.size());
+    std::size_t vertices = 0;
+    for (const Made& face : made_) {
+      if (face.stays) continue;
+      ++faces;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t v = number({face.layer, 3 * face.face + k});
+        if (!vertices_[v].is_valid() && !is_used[v]) ++vertices;
+        is_used[v] = true;
+      }
+    }
+    std::size_t edges = 0;
+    for_each_half_edge([&](HalfEdge h) { edges += makes_edge(h) ? 1U : 0U; });
+    const std::size_t v = surface_.n_vertices() + missing(vertices, live_.free_vertices_);
+    const std::size_t e = surface_.n_edges() + missing(edges, live_.free_edges_);
+    const std::size_t f = surface_.n_faces() + missing(faces, live_.free_faces_);
+    if (v > reserved(live_.vertex_room_, v) || e > reserved(live_.edge_room_, e) ||
+        f > reserved(live_.face_room_, f))
+      throw Error("more triangles than fit in memory");
+    surface_.reserve(live_.vertex_room_, live_.edge_room_, live_.face_room_);
+    const auto v_before = static_cast<int>(surface_.n_vertices());
+    const auto e_before = static_cast<int>(surface_.n_edges());
+    const auto f_before = static_cast<int>(surface_.n_faces());
+    surface_.resize(v, e, f);
+    for (int i = static_cast<int>(v); i-- > v_before;) live_.free_vertices_.emplace_back(i);
+    for (int i = static_cast<int>(e); i-- > e_before;) live_.free_edges_.emplace_back(i);
+    for (int i = static_cast<int>(f); i-- > f_before;) live_.free_faces_.emplace_back(i);
+  }
+
+  static std::size_t reserved(std::size_t& room, std::size_t needed) {
+    if (needed > room) room = needed + needed / 8;
+    return room;
+  }
+
+  template <class Some>
+  static Some take(std::vector<Some>& free) {
+    const Some one = free.back();
+    free.pop_back();
+    return one;
+  }
+
+  void make_vertices() {
+    for (const Made& face : made_) {
+      if (face.stays) continue;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const HalfEdge corner{face.layer, 3 * face.face + k};
+        VertexHandle& v = vertex(corner);
+        if (v.is_valid()) continue;
+        v = take(live_.free_vertices_);
+        const Vec3 p = sewing_.place(corner);
+        mark(v, false);
+        surface_.set_point(v, {p[0], p[1], p[2]});
+        surface_.data(v).origin = sewing_.origin(corner);
+        surface_.set_isolated(v);
+        ++result_.vertices_added;
+      }
+    }
+  }
+
+  /// Whether a side needs an edge that is not there; of two sides the first one makes it.
+  [[nodiscard]] bool makes_edge(HalfEdge h) {
+    if (made(h).stays || on_rim(h).is_valid()) return false;
+    const HalfEdge mate = sewing_.mate(h);
+    if (mate.is_none() || !comes(mate.layer)) return true;
+    return !made(mate).stays && h < mate;
+  }
+
+  [[nodiscard]] Handle& handle(HalfEdge h) {
+    return handles_[3 * (first_made_[h.layer - splice_.first] + h.face()) + h.index % 3];
+  }
+
+  void make_edges() {
+    handles_.resize(3 * made_.size());
+    for_each_half_edge([&](HalfEdge h) {
+      if (made(h).stays) return;
+      const HalfEdge mate = sewing_.mate(h);
+      if (const Handle there = on_rim(h); there.is_valid()) {
+        handle(h) = there;
+      } else if (!mate.is_none() && comes(mate.layer) && made(mate).stays) {
+        Handle side = surface_.halfedge_handle(made(mate).handle);
+        for (std::uint32_t k = 0; k < mate.index % 3; ++k)
+          side = surface_.next_halfedge_handle(side);
+        handle(h) = surface_.opposite_halfedge_handle(side);
+      } else if (makes_edge(h)) {
+        make_edge(h, mate);
+      }
+    });
+    for_each_half_edge([&](HalfEdge h) {
+      if (const RimPlace* place = rim_place(h); place != nullptr && !made(h).stays)
+        (*splice_.slices[place->slice].rim)[place->place] =
+            place->is_above ? handle(h) : surface_.opposite_halfedge_handle(handle(h));
+    });
+  }
+
+  void make_edge(HalfEdge h, HalfEdge mate) {
+    const EdgeHandle e = take(live_.free_edges_);
+    mark(e, false);
+    const Handle one = surface_.halfedge_handle(e, 0);
+    const Handle other = surface_.halfedge_handle(e, 1);
+    surface_.set_vertex_handle(one, vertex(Sewing::next(h)));
+    surface_.set_vertex_handle(other, vertex(h));
+    surface_.set_boundary(other);
+    handle(h) = one;
+    if (!mate.is_none() && comes(mate.layer)) {
+      handle(mate) = other;
+    } else {
+      loose_.push_back(other);
+    }
+  }
+
+  void make_faces() {
+    result_.faces.resize(layer_count());
+    for (Made& face : made_) {
+      if (!face.stays) make_face(face);
+      result_.faces[face.layer - splice_.first].push_back(face.handle);
+    }
+  }
+
+  void make_face(Made& face) {
+    face.handle = take(live_.free_faces_);
+    mark(face.handle, false);
+    const Layer& layer = sewing_.layer(face.layer);
+    surface_.data(face.handle).kind = layer.tiles.tiles[face.face].kind;
+    surface_.data(face.handle).slab = layer.slab;
+    const HalfEdge first{face.layer, 3 * face.face};
+    surface_.set_halfedge_handle(face.handle, handle(first));
+    HalfEdge h = first;
+    for (int k = 0; k < 3; ++k, h = Sewing::next(h)) {
+      surface_.set_face_handle(handle(h), face.handle);
+      surface_.set_next_halfedge_handle(handle(h), handle(Sewing::next(h)));
+      surface_.set_halfedge_handle(vertex(h), handle(h));
+      add_to_bounds(surface_.point(vertex(h)));
+    }
+    ++result_.faces_added;
+  }
+
+  // --- Afterwards ---
+
+  /// Edges at what went or came that have one face are a boundary now. A vertex there leads to its
+  /// half-edge along the boundary.
+  void close_boundaries() {
+    std::vector<Handle> boundary;
+    for (const Handle h : loose_) {
+      if (surface_.status(surface_.edge_handle(h)).deleted()) continue;
+      for (const Handle side : {h, surface_.opposite_halfedge_handle(h)}) {
+        if (surface_.is_boundary(side)) {
+          boundary.push_back(side);
+        } else {
+          lead_from_vertex(side);
+        }
+      }
+    }
+    if (live_.is_open_) {
+      for (const Made& face : made_)
+        for (const std::uint32_t k : {0U, 1U, 2U})
+          if (!face.stays) lead_from_vertex(handle({face.layer, 3 * face.face + k}));
+    }
+    for (const Handle h : boundary) surface_.set_halfedge_handle(surface_.from_vertex_handle(h), h);
+    for (const Handle h : boundary) {
+      surface_.set_next_halfedge_handle(h, surface_.halfedge_handle(surface_.to_vertex_handle(h)));
+      const Handle before = boundary_before(h);
+      surface_.set_next_halfedge_handle(before, h);
+    }
+  }
+
+  /// From the start of a side of a face, to its boundary if it is on one.
+  void lead_from_vertex(Handle side) {
+    Handle h = side;
+    if (live_.is_open_) {
+      do {
+        h = surface_.opposite_halfedge_handle(surface_.prev_halfedge_handle(h));
+      } while (h != side && !surface_.is_boundary(h));
+    }
+    surface_.set_halfedge_handle(surface_.from_vertex_handle(side), h);
+  }
+
+  /// The half-edge of the boundary that ends where h starts: around the faces there.
+  [[nodiscard]] Handle boundary_before(Handle h) const {
+    Handle in = surface_.opposite_halfedge_handle(h);
+    while (!surface_.is_boundary(in))
+      in = surface_.opposite_halfedge_handle(surface_.next_halfedge_handle(in));
+    return in;
+  }
+
+  /// Vertices of faces that went are free if no face is left at them: then what they lead to is no
+  /// half-edge of theirs any more.
+  void free_vertices() {
+    for (const VertexHandle v : touched_) {
+      if (surface_.status(v).deleted()) continue;
+      const Handle h = surface_.halfedge_handle(v);
+      if (is_alive(h) && surface_.from_vertex_handle(h) == v) continue;
+      mark(v, true);
+      surface_.set_isolated(v);
+      live_.free_vertices_.push_back(v);
+      ++result_.vertices_removed;
+    }
+  }
+
+  [[nodiscard]] bool is_alive(Handle h) const {
+    return h.is_valid() && !surface_.status(surface_.edge_handle(h)).deleted() &&
+           (!surface_.is_boundary(h) ||
+            !surface_.is_boundary(surface_.opposite_halfedge_handle(h)));
+  }
+
+  static constexpr std::uint32_t none = Origin::none;
+
+  LiveSurface& live_;
+  Surface& surface_;
+  Splice splice_;
+  Spliced result_;
+  Sewing sewing_;
+  std::vector<RimIndex> indices_;  // of the slices
+  std::vector<Made> made_;         // the faces that come, layer by layer
+  std::vector<std::uint32_t> first_made_;
+  std::vector<std::uint32_t> places_;  // of each half-edge that comes, in rims_, or none
+  std::vector<RimPlace> rims_;
+  std::vector<VertexHandle> vertices_;             // by the number that sewing gives
+  std::unordered_map<int, std::uint32_t> owners_;  // numbers of the vertices that are there
+  std::vector<Handle> handles_;                    // of each half-edge that comes
+  std::vector<VertexHandle> touched_;              // corners of faces that went
+  std::vector<Handle> loose_;  // sides of theirs, and the far sides of new edges
+};
+
+Spliced LiveSurface::splice(Splice splice) { return Splicing(*this, std::move(splice)).run(); }
+
+void LiveSurface::collect_garbage(std::span<std::vector<FaceHandle>* const> faces,
+                                  std::span<Rim* const> rims) {
+  std::vector<VertexHandle*> no_vertices;
+  std::vector<Handle*> half_edges;
+  std::vector<FaceHandle*> all_faces;
+  for (Rim* rim : rims)
+    for (Handle& h : *rim)
+      if (h.is_valid()) half_edges.push_back(&h);
+  for (std::vector<FaceHandle>* some : faces)
+    for (FaceHandle& f : *some) all_faces.push_back(&f);
+  surface_.garbage_collection(no_vertices, half_edges, all_faces);
+  free_vertices_.clear();
+  free_edges_.clear();
+  free_faces_.clear();
+}
+
+}  // namespace loft

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "reconstruct/box3.h"
+#include "reconstruct/region.h"
+#include "reconstruct/sewing.h"
+#include "reconstruct/surface.h"
+
+namespace loft {
+
+/// The edges of the surface that lie in a slice: for each loop vertex of its region the half-edge
+/// from it to the next. It belongs to a face above the slice, the opposite one to a face below it.
+using Rim = std::vector<Surface::HalfedgeHandle>;
+
+/// A slice with its place in the surface. Edges that are not there yet are invalid handles.
+struct RimmedSlice {
+  const Region* region = nullptr;  ///< null: nothing, beyond a cap
+  Rim* rim = nullptr;
+};
+
+/// Layers to put into a surface in the place of some of its faces.
+struct Splice {
+  /// The layers that come, from low to high, and those beside them that they may touch in vertices:
+  /// with simple outer slices none, else two on either side.
+  std::vector<Layer> layers;
+  std::size_t first = 0;  ///< from here up to but not `last` they come
+  std::size_t last = 0;
+  /// The slices below each layer that comes, and that above the last one. The rims of the outer
+  /// ones are there already, if the surface goes on beyond them.
+  std::vector<RimmedSlice> slices;
+  /// For each layer that comes, where it is there already with the same tiles, its faces: they stay
+  /// as far as sewing joins them as it did. Null otherwise.
+  std::vector<const std::vector<Surface::FaceHandle>*> present;
+  /// All faces that go; those of `present` are among them.
+  std::vector<Surface::FaceHandle> removed;
+  /// All rims, beside those of `slices`, that these faces may be at.
+  std::vector<Rim*> rims;
+};
+
+/// What a splice made.
+struct Spliced {
+  /// The faces of each layer that came: those of its tiles in their order, then those that sewing
+  /// has cut off.
+  std::vector<std::vector<Surface::FaceHandle>> faces;
+  bool is_plain = true;  ///< sewing has neither doubled a vertex nor cut an edge
+  std::size_t vertices_added = 0;
+  std::size_t vertices_removed = 0;
+  std::size_t faces_added = 0;
+  std::size_t faces_removed = 0;
+  std::optional<Box3> bounds;  ///< of the faces that came or went
+};
+
+/// Whether every point of a region is on one loop, once.
+[[nodiscard]] bool is_simple(const Region& region);
+
+/// A surface that is changed in its place. Elements that go are marked as deleted, and used again
+/// for those that come next.
+class LiveSurface {
+ public:
+  /// `is_open`: whether it may have boundaries.
+  explicit LiveSurface(bool is_open) : is_open_(is_open) {}
+
+  [[nodiscard]] const Surface& surface() const { return surface_; }
+
+  /// Law: afterwards the surface is the one that sewing all its layers at once would make. Handles
+  /// of faces that stay, and of their edges and vertices, stay what they are.
+  /// Cost: that of sewing the layers.
+  Spliced splice(Splice splice);
+
+  /// What faces that stay say of their slab.
+  void set_slab(std::span<const Surface::FaceHandle> faces, std::uint32_t slab) {
+    for (const Surface::FaceHandle f : faces) surface_.data(f).slab = slab;
+  }
+
+  /// Closes the holes in the arrays. The handles given are brought up to date; all others are
+  /// invalid afterwards. Cost: O(size of the surface).
+  void collect_garbage(std::span<std::vector<Surface::FaceHandle>* const> faces,
+                       std::span<Rim* const> rims);
+
+ private:
+  class Splicing;
+
+  bool is_open_;
+  Surface surface_;
+  std::size_t vertex_room_ = 0;  // that its arrays have
+  std::size_t edge_room_ = 0;
+  std::size_t face_room_ = 0;
+  // Elements that are deleted.
+  std::vector<Surface::VertexHandle> free_vertices_;
+  std::vector<Surface::EdgeHandle> free_edges_;
+  std::vector<Surface::FaceHandle> free_faces_;
+};
+
+}  // namespace loft

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: MIT
+#include "tests/reconstruct/edit_script.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <map>
+#include <sstream>
+#include <tuple>
+#include <utility>
+
+#include "reconstruct/reconstruct.h"
+
+namespace loft::edits {
+
+namespace {
+
+using Place = std::array<double, 3>;
+
+/// A vertex as both surfaces know it: the slice by its height.
+using Vertex = std::tuple<Place, VertexKind, std::uint32_t, std::uint32_t>;
+struct Content {
+  std::vector<Vertex> vertices;
+  std::vector<std::tuple<std::array<Place, 3>, FaceKind>> faces;
+};
+
+Place place(const Surface& surface, Surface::VertexHandle v) {
+  const auto& p = surface.point(v);
+  return {p[0], p[1], p[2]};
+}
+
+Content content(const Surface& surface) {
+  Content content;
+  for (const Surface::VertexHandle v : surface.vertices()) {
+    const Origin& origin = surface.data(v).origin;
+    content.vertices.emplace_back(place(surface, v), origin.kind, origin.contour, origin.point);
+  }
+  for (const Surface::FaceHandle f : surface.faces()) {
+    std::array<Place, 3> corners{};
+    std::size_t k = 0;
+    for (const Surface::VertexHandle v : surface.fv_range(f)) corners[k++] = place(surface, v);
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    content.faces.emplace_back(corners, surface.data(f).kind);
+  }
+  std::ranges::sort(content.vertices);
+  std::ranges::sort(content.faces);
+  return content;
+}
+
+std::string difference(const Content& is, const Content& expected) {
+  std::ostringstream words;
+  if (is.faces.size() != expected.faces.size())
+    words << is.faces.size() << " faces for " << expected.faces.size() << "; ";
+  if (is.vertices.size() != expected.vertices.size())
+    words << is.vertices.size() << " vertices for " << expected.vertices.size() << "; ";
+  if (!words.str().empty()) return words.str();
+  if (is.vertices != expected.vertices) return "other vertices";
+  if (is.faces != expected.faces) return "other faces";
+  return "";
+}
+
+bool is_alive(const Surface& surface, Surface::HalfedgeHandle h) {
+  return h.is_valid() && static_cast<std::size_t>(h.idx()) < surface.n_halfedges() &&
+         !surface.status(surface.edge_handle(h)).deleted();
+}
+
+}  // namespace
+
+std::string broken(const Surface& surface) {
+  std::map<int, std::size_t> faces_at;
+  std::ostringstream words;
+  for (const Surface::FaceHandle f : surface.faces()) {
+    auto h = surface.halfedge_handle(f);
+    for (int k = 0; k < 3; ++k, h = surface.next_halfedge_handle(h)) {
+      if (!is_alive(surface, h)) return "a face has no edge";
+      if (surface.face_handle(h) != f) return "a side is of another face";
+      if (surface.prev_halfedge_handle(surface.next_halfedge_handle(h)) != h)
+        return "next and previous differ";
+      const auto other = surface.opposite_halfedge_handle(h);
+      if (!surface.is_boundary(other) && surface.status(surface.face_handle(other)).deleted())
+        return "a neighbour is deleted";
+      if (surface.status(surface.to_vertex_handle(h)).deleted()) return "a corner is deleted";
+      ++faces_at[surface.to_vertex_handle(h).idx()];
+    }
+    if (h != surface.halfedge_handle(f)) return "a face is no triangle";
+  }
+  for (const Surface::VertexHandle v : surface.vertices()) {
+    const auto first = surface.halfedge_handle(v);
+    if (!is_alive(surface, first) || surface.from_vertex_handle(first) != v)
+      return "a vertex leads elsewhere";
+    std::size_t count = 0;
+    auto h = first;
+    do {
+      if (!surface.is_boundary(h)) ++count;
+      h = surface.opposite_halfedge_handle(surface.prev_halfedge_handle(h));
+    } while (h != first && count <= faces_at[v.idx()]);
+    if (count != faces_at[v.idx()]) return "a vertex does not see all its faces";
+  }
+  for (const Surface::EdgeHandle e : surface.edges())
+    if (surface.is_boundary(surface.halfedge_handle(e, 0)) &&
+        surface.is_boundary(surface.halfedge_handle(e, 1)))
+      return "an edge has no face";
+  return "";
+}
+
+std::string difference(const Reconstruction& live, const Options& options) {
+  const Content is = content(live.surface());
+  const auto compared = [&](const Surface& expected) -> std::string {
+    std::string words = difference(is, content(expected));
+    if (!words.empty()) return "live: " + words;
+    words = difference(content(live.snapshot().surface(1)), content(expected));
+    return words.empty() ? "" : "snapshot: " + words;
+  };
+  try {
+    return compared(reconstruct(live.slices(), options).surface);
+  } catch (const InputError&) {
+    return compared(Surface());
+  }
+}
+
+double RandomEdits::any_height(const Reconstruction& live) {
+  const auto slices = live.slices();
+  return slices[below(slices.size())].z;
+}
+
+void RandomEdits::jog(Slice& slice) {
+  if (slice.contours.empty()) return;
+  Contour& contour = slice.contours[below(slice.contours.size())];
+  const auto small = [&] { return (static_cast<double>(below(2001)) - 1000) / 1024; };
+  cdt::Box box;
+  for (const cdt::Point p : contour.points) box.add(p);
+  if (box.is_empty()) return;
+  const double size = std::max(box.high.x - box.low.x, box.high.y - box.low.y) / 20;
+  const cdt::Point by{small() * size, small() * size};
+  for (cdt::Point& p : contour.points) p = {p.x + by.x, p.y + by.y};
+}
+
+std::string RandomEdits::reject(Reconstruction& live) {
+  const auto before = content(live.surface());
+  const std::size_t count = live.slice_count();
+  if (count == 0) return "";
+  Slice bad = pool_[below(pool_.size())];
+  const std::size_t kind = below(4);
+  try {
+    if (kind == 0) {
+      bad.contours.push_back({{{0, 0}, {1, 0}, {std::numeric_limits<double>::quiet_NaN(), 1}}, ""});
+      live.insert(std::move(bad));
+    } else if (kind == 1) {
+      bad.z = any_height(live);
+      bad.z += std::abs(bad.z) * 0x1p-45;
+      if (bad.z == 0) return "";  // there is no number so near
+      live.insert(std::move(bad));
+    } else if (kind == 2) {
+      live.remove(1e30);
+    } else {
+      live.replace(1e30, bad);
+    }
+    return "a bad edit was taken";
+  } catch (const InputError&) {
+    const auto after = content(live.surface());
+    if (before.faces != after.faces || before.vertices != after.vertices ||
+        count != live.slice_count())
+      return "a rejected edit has changed something";
+  }
+  return "";
+}
+
+std::string RandomEdits::next(Reconstruction& live) {
+  const std::size_t kind = below(20);
+  if (live.slice_count() == 0 || kind < 7) {
+    const Slice& slice = pool_[below(pool_.size())];
+    if (live.find(slice.z) != nullptr && kind < 6) {
+      live.replace(slice.z, slice);
+    } else {
+      live.insert(slice);
+    }
+    return "";
+  }
+  const double z = any_height(live);
+  if (kind < 10) {
+    live.remove(z);
+  } else if (kind < 12) {
+    Slice other = pool_[below(pool_.size())];
+    other.z = z;
+    live.replace(z, std::move(other));
+  } else if (kind < 13) {
+    Slice moved = *live.find(z);
+    moved.z = pool_[below(pool_.size())].z;
+    if (live.find(moved.z) == nullptr) live.replace(z, std::move(moved));
+  } else if (kind < 14) {
+    live.replace(z, Slice{z, {}});
+  } else if (kind < 16) {
+    return reject(live);
+  } else if (kind < 18) {
+    const Slice& slice = *live.find(z);
+    if (slice.contours.empty()) return "";
+    const std::size_t contour = below(slice.contours.size());
+    Slice moved = slice;
+    jog(moved);
+    live.move_contour(z, contour, moved.contours[contour].points);
+  } else {
+    Slice moved = *live.find(z);
+    jog(moved);
+    live.replace(z, std::move(moved));
+  }
+  return "";
+}
+
+}  // namespace loft::edits

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reconstruct/reconstruction.h"
+
+namespace loft::edits {
+
+/// What is broken in the structure of a mesh that may have deleted elements; empty if nothing is.
+[[nodiscard]] std::string broken(const Surface& surface);
+
+/// How a live surface differs from the one built at once from the same slices; empty if they have
+/// the same vertices and the same faces, of the same origin and kind. Nothing to compare is fine.
+[[nodiscard]] std::string difference(const Reconstruction& live, const Options& options);
+
+/// Random edits of a stack, all kinds of them: inserted in any order, at heights that are taken,
+/// replaced, moved, by hardly anything, removed, and rejected.
+class RandomEdits {
+ public:
+  /// `pool`: slices to insert, each at its height.
+  RandomEdits(std::vector<Slice> pool, std::uint64_t seed)
+      : pool_(std::move(pool)), random_(seed) {}
+
+  /// Does an edit. Returns what was wrong with it, if that can be seen at once.
+  std::string next(Reconstruction& live);
+
+ private:
+  [[nodiscard]] std::size_t below(std::size_t bound) { return random_() % bound; }
+  [[nodiscard]] double any_height(const Reconstruction& live);
+  [[nodiscard]] std::string reject(Reconstruction& live);
+  void jog(Slice& slice);
+
+  std::vector<Slice> pool_;
+  std::mt19937_64 random_;
+};
+
+}  // namespace loft::edits
