@@ -68,6 +68,7 @@ class LiveSurface::Splicing {
       indices_.emplace_back(slice.region == nullptr ? nothing : *slice.region);
     list_faces();
     find_rims();
+    if (result_.needs_below || result_.needs_above) return std::move(result_);
     adopt_vertices();
     choose_faces_that_stay();
     remove_faces();
@@ -149,23 +150,42 @@ class LiveSurface::Splicing {
     bool is_above;  // the face is above the slice
   };
 
-  /// The half-edges in slices; sewing lists them by node.
+  /// Finds the half-edges in slices. A rim is regular if each contour edge has one on either side.
   void find_rims() {
     places_.resize(3 * made_.size(), none);
     for (std::uint32_t i = 0; i < layer_count(); ++i) {
-      const std::uint32_t layer = sewn(i);
-      const auto note = [&](std::uint32_t slice, bool is_above) {
-        return [this, slice, is_above, first = 3 * first_made_[i]](
-                   std::uint32_t h, std::uint32_t from, std::uint32_t to) {
-          const std::uint32_t place =
-              is_above ? indices_[slice].find(from, to) : indices_[slice].find(to, from);
-          if (place == none) return;
-          places_[first + h] = static_cast<std::uint32_t>(rims_.size());
-          rims_.push_back({slice, place, is_above});
-        };
+      std::vector<std::uint32_t> lower_counts(edge_count(i));
+      std::vector<std::uint32_t> upper_counts(edge_count(i + 1));
+      const auto note = [&](std::uint32_t h, std::uint32_t slice, std::uint32_t place,
+                            bool is_above) {
+        if (place == none) return;
+        ++(is_above ? lower_counts : upper_counts)[place];
+        places_[3 * first_made_[i] + h] = static_cast<std::uint32_t>(rims_.size());
+        rims_.push_back({slice, place, is_above});
       };
-      for_each_in_slices(layer, note(i, true), note(i + 1, false));
+      for_each_in_slices(
+          sewn(i),
+          [&](std::uint32_t h, std::uint32_t from, std::uint32_t to) {
+            note(h, i, indices_[i].find(from, to), true);
+          },
+          [&](std::uint32_t h, std::uint32_t from, std::uint32_t to) {
+            note(h, i + 1, indices_[i + 1].find(to, from), false);
+          });
+      const auto is_one = [](std::uint32_t count) { return count == 1; };
+      if (!std::ranges::all_of(lower_counts, is_one)) note_irregular(i);
+      if (!std::ranges::all_of(upper_counts, is_one)) note_irregular(i + 1);
     }
+  }
+
+  [[nodiscard]] std::size_t edge_count(std::uint32_t slice) const {
+    const Region* region = splice_.slices[slice].region;
+    return region == nullptr ? 0 : region->loop_vertices.size();
+  }
+
+  void note_irregular(std::uint32_t slice) {
+    irregular_.push_back(slice);
+    if (slice == 0 && splice_.has_below) result_.needs_below = true;
+    if (slice == layer_count() && splice_.has_above) result_.needs_above = true;
   }
 
   /// Calls below(h, from, to) and above(h, from, to) for the half-edges that lie in a slice, by the
@@ -195,11 +215,13 @@ class LiveSurface::Splicing {
     return place == none ? nullptr : &rims_[place];
   }
 
-  /// The half-edge that is there already for a side in a slice; invalid if there is none.
+  /// The half-edge that is there already for a side in a slice, with a face on its other side that
+  /// does not come; invalid if there is none.
   [[nodiscard]] Handle on_rim(HalfEdge h) const {
     const RimPlace* place = rim_place(h);
-    if (place == nullptr) return Handle();
-    const Handle forward = (*splice_.slices[place->slice].rim)[place->place];
+    const HalfEdge mate = sewing_.mate(h);
+    if (place == nullptr || (!mate.is_none() && comes(mate.layer))) return Handle();
+    const Handle forward = splice_.slices[place->slice].rim->edges[place->place];
     if (!forward.is_valid() || place->is_above) return forward;
     return surface_.opposite_halfedge_handle(forward);
   }
@@ -214,7 +236,6 @@ class LiveSurface::Splicing {
       adopt(h, surface_.from_vertex_handle(there));
       adopt(Sewing::next(h), surface_.to_vertex_handle(there));
     });
-    if (splice_.present.empty()) return;
     for (const Made& face : made_) {
       if (!face.stays) continue;
       Handle side = surface_.halfedge_handle(face.handle);
@@ -235,7 +256,8 @@ class LiveSurface::Splicing {
 
   /// A face stays if it has the same corners and, where its neighbour stays, too, is joined to it.
   void choose_faces_that_stay() {
-    if (splice_.present.empty()) return;
+    if (std::ranges::none_of(splice_.present, [](const auto* faces) { return faces != nullptr; }))
+      return;
     std::unordered_map<int, std::uint32_t> numbers;  // of the faces that are there
     for (std::uint32_t i = 0; i < made_.size(); ++i)
       if (made_[i].stays) numbers.emplace(made_[i].handle.idx(), i);
@@ -315,7 +337,7 @@ class LiveSurface::Splicing {
     for (const RimmedSlice& slice : splice_.slices)
       if (slice.rim != nullptr) splice_.rims.push_back(slice.rim);
     for (Rim* const rim : splice_.rims)
-      for (Handle& h : *rim)
+      for (Handle& h : rim->edges)
         if (h.is_valid() && surface_.status(surface_.edge_handle(h)).deleted()) h = Handle();
   }
 
@@ -418,9 +440,11 @@ class LiveSurface::Splicing {
     });
     for_each_half_edge([&](HalfEdge h) {
       if (const RimPlace* place = rim_place(h); place != nullptr && !made(h).stays)
-        (*splice_.slices[place->slice].rim)[place->place] =
+        splice_.slices[place->slice].rim->edges[place->place] =
             place->is_above ? handle(h) : surface_.opposite_halfedge_handle(handle(h));
     });
+    for (std::uint32_t i = 1; i < layer_count(); ++i) splice_.slices[i].rim->is_regular = true;
+    for (const std::uint32_t i : irregular_) splice_.slices[i].rim->is_regular = false;
   }
 
   void make_edge(HalfEdge h, HalfEdge mate) {
@@ -545,6 +569,7 @@ class LiveSurface::Splicing {
   std::vector<std::uint32_t> first_made_;
   std::vector<std::uint32_t> places_;  // of each half-edge that comes, in rims_, or none
   std::vector<RimPlace> rims_;
+  std::vector<std::uint32_t> irregular_;           // slices
   std::vector<VertexHandle> vertices_;             // by the number that sewing gives
   std::unordered_map<int, std::uint32_t> owners_;  // numbers of the vertices that are there
   std::vector<Handle> handles_;                    // of each half-edge that comes
@@ -560,7 +585,7 @@ void LiveSurface::collect_garbage(std::span<std::vector<FaceHandle>* const> face
   std::vector<Handle*> half_edges;
   std::vector<FaceHandle*> all_faces;
   for (Rim* rim : rims)
-    for (Handle& h : *rim)
+    for (Handle& h : rim->edges)
       if (h.is_valid()) half_edges.push_back(&h);
   for (std::vector<FaceHandle>* some : faces)
     for (FaceHandle& f : *some) all_faces.push_back(&f);

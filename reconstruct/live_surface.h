@@ -14,11 +14,17 @@
 
 namespace loft {
 
-/// The edges of the surface that lie in a slice: for each loop vertex of its region the half-edge
-/// from it to the next. It belongs to a face above the slice, the opposite one to a face below it.
-using Rim = std::vector<Surface::HalfedgeHandle>;
+/// The edges of the surface that lie in a slice.
+struct Rim {
+  /// For each loop vertex of the slice's region the half-edge from it to the next: it belongs to a
+  /// face above the slice, the opposite one to a face below it. Invalid where there is none yet.
+  std::vector<Surface::HalfedgeHandle> edges;
+  /// Whether that is all there is in the slice. Where slices hardly differ, more tiles may touch a
+  /// contour edge; then layers on both sides can only be sewn together.
+  bool is_regular = true;
+};
 
-/// A slice with its place in the surface. Edges that are not there yet are invalid handles.
+/// A slice with its place in the surface.
 struct RimmedSlice {
   const Region* region = nullptr;  ///< null: nothing, beyond a cap
   Rim* rim = nullptr;
@@ -26,13 +32,15 @@ struct RimmedSlice {
 
 /// Layers to put into a surface in the place of some of its faces.
 struct Splice {
-  /// The layers that come, from low to high, and those beside them that they may touch in vertices:
-  /// with simple outer slices none, else two on either side.
+  /// The layers that come, from low to high. Where contours of an outer slice touch, so may layers
+  /// on both sides of it: then the one beyond comes, too, and the next is there to be looked at.
   std::vector<Layer> layers;
   std::size_t first = 0;  ///< from here up to but not `last` they come
   std::size_t last = 0;
+  bool has_below = false;  ///< whether the surface goes on below and above them
+  bool has_above = false;
   /// The slices below each layer that comes, and that above the last one. The rims of the outer
-  /// ones are there already, if the surface goes on beyond them.
+  /// ones are regular and there already, if the surface goes on beyond them.
   std::vector<RimmedSlice> slices;
   /// For each layer that comes, where it is there already with the same tiles, its faces: they stay
   /// as far as sewing joins them as it did. Null otherwise.
@@ -45,6 +53,10 @@ struct Splice {
 
 /// What a splice made.
 struct Spliced {
+  /// Nothing was done: in an outer slice there is more than its contours. The next layer has to
+  /// come, too.
+  bool needs_below = false;
+  bool needs_above = false;
   /// The faces of each layer that came: those of its tiles in their order, then those that sewing
   /// has cut off.
   std::vector<std::vector<Surface::FaceHandle>> faces;

@@ -301,7 +301,7 @@ class Reconstruction::Stack::Edit {
     is_quiet_ = false;
     ++stack_.next_number_;
     add_shape(station);
-    station.rim.resize(station.region->loop_vertices.size());
+    station.rim.edges.resize(station.region->loop_vertices.size());
     return station;
   }
 
@@ -358,10 +358,11 @@ class Reconstruction::Stack::Edit {
 
     constexpr int reach = 6;  // slices on either side that may matter
     auto from = stack_.stations_.lower_bound(std::clamp(low, first->first, last->first));
-    for (int i = 0; i < reach && from != first; ++i) --from;
+    const auto is_irregular = [](const auto& at) { return !at->second.rim.is_regular; };
+    for (int i = 0; (i < reach || is_irregular(from)) && from != first; ++i) --from;
     auto to = stack_.stations_.upper_bound(std::clamp(high, first->first, last->first));
     if (to != stack_.stations_.begin()) --to;
-    for (int i = 0; i < reach && to != last; ++i) ++to;
+    for (int i = 0; (i < reach || is_irregular(to)) && to != last; ++i) ++to;
     const bool is_bottom = from == first;
     const bool is_top = to == last;
 
@@ -544,7 +545,8 @@ class Reconstruction::Stack::Edit {
       i = std::max(end, i + 1);
     }
     if (!removed_.empty())
-      add(stack_.live_.splice({{}, 0, 0, {}, {}, std::move(removed_), std::move(rims_)}));
+      add(stack_.live_.splice(
+          {.layers = {}, .removed = std::move(removed_), .rims = std::move(rims_)}));
 
     for (const double z : gone_) stack_.slabs_.erase(z);
     for (Gap& gap : gaps_)
@@ -617,39 +619,59 @@ class Reconstruction::Stack::Edit {
     return {station.region.get(), &station.rim};
   }
 
-  /// Puts new layers into the surface. Where contours of the outer slices touch, what comes and
-  /// what stays may touch, too: then that is sewn anew with it.
+  /// Whether there are places in a slice where its contours touch.
+  [[nodiscard]] static bool is_touching(const RimmedSlice& slice) {
+    return slice.region != nullptr && !is_simple(*slice.region);
+  }
+  [[nodiscard]] bool touches_below(std::size_t unit) const {
+    return unit > 0 && is_touching(below(units_[unit]));
+  }
+  [[nodiscard]] bool touches_above(std::size_t unit) const {
+    return unit + 1 < units_.size() && is_touching(above(units_[unit]));
+  }
+
+  /// Puts the new units from `begin` to `end` into the surface, with as many beside them as have to
+  /// be sewn with them: where contours of a slice touch, so may the layers below and above it.
   void splice(std::size_t begin, std::size_t end) {
-    const auto is_simple_slice = [](const RimmedSlice& slice) {
-      return slice.region == nullptr || is_simple(*slice.region);
-    };
-    std::size_t context_begin = begin;
-    std::size_t context_end = end;
-    Splice splice;
-    if (!is_simple_slice(below(units_[begin])) || !is_simple_slice(above(units_[end - 1]))) {
-      context_begin = begin - std::min<std::size_t>(begin, 2);
-      context_end = std::min(units_.size(), end + 2);
-      const std::size_t outer_begin = begin - std::min<std::size_t>(begin, 1);
-      const std::size_t outer_end = std::min(units_.size(), end + 1);
-      for (std::size_t i = outer_begin; i < outer_end; ++i)
-        splice.present.push_back(i < begin || i >= end ? units_[i].faces : nullptr);
-      begin = outer_begin;
-      end = outer_end;
-      for (const Faces* faces : splice.present)
-        if (faces != nullptr) removed_.insert(removed_.end(), faces->begin(), faces->end());
+    std::size_t first = begin - (touches_below(begin) ? 1 : 0);
+    std::size_t last = end + (touches_above(end - 1) ? 1 : 0);
+    for (;;) {
+      while (first > 0 && !below(units_[first]).rim->is_regular) --first;
+      while (last < units_.size() && !above(units_[last - 1]).rim->is_regular) ++last;
+      const Spliced spliced = stack_.live_.splice(make_splice(begin, end, first, last));
+      if (spliced.needs_below) --first;
+      if (spliced.needs_above) ++last;
+      if (spliced.needs_below || spliced.needs_above) continue;
+      for (std::size_t i = first; i < last; ++i) *units_[i].faces = spliced.faces[i - first];
+      add(spliced);
+      removed_.clear();
+      rims_.clear();
+      return;
     }
-    splice.first = begin - context_begin;
-    splice.last = end - context_begin;
+  }
+
+  [[nodiscard]] Splice make_splice(std::size_t begin, std::size_t end, std::size_t first,
+                                   std::size_t last) const {
+    Splice splice;
+    const std::size_t context_begin = first - (touches_below(first) ? 1 : 0);
+    const std::size_t context_end = last + (touches_above(last - 1) ? 1 : 0);
     for (std::size_t i = context_begin; i < context_end; ++i)
       splice.layers.push_back(layer(units_[i]));
-    for (std::size_t i = begin; i < end; ++i) splice.slices.push_back(below(units_[i]));
-    splice.slices.push_back(above(units_[end - 1]));
-    splice.removed = std::exchange(removed_, {});
-    splice.rims = std::exchange(rims_, {});
-    Spliced spliced = stack_.live_.splice(std::move(splice));
-    for (std::size_t i = begin; i < end; ++i)
-      *units_[i].faces = std::move(spliced.faces[i - begin]);
-    add(spliced);
+    splice.first = first - context_begin;
+    splice.last = last - context_begin;
+    splice.has_below = first > 0;
+    splice.has_above = last < units_.size();
+    splice.removed = removed_;
+    splice.rims = rims_;
+    for (std::size_t i = first; i < last; ++i) {
+      splice.slices.push_back(below(units_[i]));
+      const Faces* present = i < begin || i >= end ? units_[i].faces : nullptr;
+      splice.present.push_back(present);
+      if (present != nullptr)
+        splice.removed.insert(splice.removed.end(), present->begin(), present->end());
+    }
+    splice.slices.push_back(above(units_[last - 1]));
+    return splice;
   }
 
   void add(const Spliced& spliced) {
