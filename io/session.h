@@ -31,8 +31,8 @@ class Session {
   /// Adds edits, all or none; on return they are durable. Throws FileError (disk full, device
   /// error); then none of them is kept.
   void append(std::span<const Edit> edits);
-  /// Calls take() for each edit, in order; with little in memory. Throws FileError where the journal
-  /// is damaged, naming the edit: each one has a checksum.
+  /// Calls take() for each edit, in order; with little in memory. Throws FileError where the
+  /// journal is damaged, naming the edit: each one has a checksum.
   void for_each(const std::function<void(std::uint64_t number, Edit&& edit)>& take) const;
   [[nodiscard]] std::uint64_t edit_count() const;
 
@@ -40,6 +40,9 @@ class Session {
   /// journal.
   [[nodiscard]] std::map<std::string, std::string> settings() const;
   void set_settings(const std::map<std::string, std::string>& settings);
+
+  /// Checks the file itself, all of it; the edits are checked by for_each(). Throws FileError.
+  void check() const;
 
  private:
   class Journal;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <utility>
 
+#include "io/edit.h"
 #include "io/json_reader.h"
 #include "io/text.h"
 
@@ -13,11 +14,14 @@ namespace loft::io {
 
 namespace {
 
-class SliceReader {
- public:
-  explicit SliceReader(std::string_view text) : json_(text) {}
+/// What a line may be.
+enum class Content { slice, edit };
 
-  SliceLine read() {
+class LineReader {
+ public:
+  LineReader(std::string_view text, Content content) : json_(text), content_(content) {}
+
+  EditLine read() {
     try {
       read_slice();
     } catch (const JsonError& error) {
@@ -47,7 +51,7 @@ class SliceReader {
     if (key == "z") {
       has_z_ = true;
       line_.z = read_number([] { return std::string("\"z\": "); }, "a finite number");
-      line_.slice.z = line_.z.value_or(0);
+      line_.edit.slice.z = line_.z.value_or(0);
     } else if (key == "contours") {
       has_contours_ = true;
       read_contours();
@@ -78,10 +82,16 @@ class SliceReader {
   void read_op() {
     if (json_.peek() != JsonKind::string) return reject("\"op\": ", "\"insert\"");
     const std::string op = json_.string();
-    if (op == "replace" || op == "remove") {
+    const bool is_edit = op == "replace" || op == "remove";
+    if (is_edit && content_ == Content::edit) {
+      line_.edit.kind = op == "replace" ? Edit::Kind::replace : Edit::Kind::remove;
+    } else if (is_edit) {
       complain("\"op\": \"" + op + "\" is an edit; a stack holds its slices only, without \"op\"");
     } else if (op != "insert") {
-      complain("\"op\": " + in_quotes(op) + " is unknown; leave \"op\" out");
+      complain("\"op\": " + in_quotes(op) +
+               (content_ == Content::edit
+                    ? " is unknown; write \"insert\", \"replace\" or \"remove\""
+                    : " is unknown; leave \"op\" out"));
     }
   }
 
@@ -97,21 +107,21 @@ class SliceReader {
   }
 
   void read_contours() {
-    line_.slice.contours.clear();
+    line_.edit.slice.contours.clear();
     if (json_.peek() != JsonKind::list) return reject("\"contours\": ", "a list of contours");
     json_.begin_list();
     while (json_.next_item()) {
-      line_.slice.contours.emplace_back();
-      read_contour(line_.slice.contours.back());
+      line_.edit.slice.contours.emplace_back();
+      read_contour(line_.edit.slice.contours.back());
     }
   }
 
   [[nodiscard]] std::string contour_place() const {
-    return "contour " + std::to_string(line_.slice.contours.size() - 1) + ' ';
+    return "contour " + std::to_string(line_.edit.slice.contours.size() - 1) + ' ';
   }
 
   [[nodiscard]] std::string point_place() const {
-    const std::size_t point = line_.slice.contours.back().points.size();
+    const std::size_t point = line_.edit.slice.contours.back().points.size();
     return contour_place() + "point " + std::to_string(point) + ": ";
   }
 
@@ -143,8 +153,12 @@ class SliceReader {
 
   /// What only the whole line can tell.
   void check_members() {
-    std::vector<Contour>& contours = line_.slice.contours;
+    std::vector<Contour>& contours = line_.edit.slice.contours;
     if (!has_z_) complain("\"z\" is missing; a slice needs its height");
+    if (line_.edit.kind == Edit::Kind::remove) {
+      contours.clear();
+      return;
+    }
     if (!has_contours_) complain("\"contours\" is missing; an empty slice has \"contours\": []");
     if (has_labels_ && labels_.size() != contours.size()) {
       return complain(std::to_string(labels_.size()) + " labels for " +
@@ -154,7 +168,8 @@ class SliceReader {
   }
 
   JsonReader json_;
-  SliceLine line_;
+  Content content_;
+  EditLine line_;
   std::vector<std::string> labels_;
   bool has_z_ = false;
   bool has_contours_ = false;
@@ -163,6 +178,11 @@ class SliceReader {
 
 }  // namespace
 
-SliceLine parse_slice_line(std::string_view line) { return SliceReader(line).read(); }
+SliceLine parse_slice_line(std::string_view line) {
+  EditLine read = LineReader(line, Content::slice).read();
+  return {std::move(read.edit.slice), std::move(read.problems), read.z};
+}
+
+EditLine parse_edit_line(std::string_view line) { return LineReader(line, Content::edit).read(); }
 
 }  // namespace loft::io

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "io/edit.h"
 #include "io/file.h"
 #include "io/json_reader.h"
 #include "io/problems.h"
@@ -137,20 +138,38 @@ void append_labels(std::string& text, std::span<const Contour> contours) {
 
 }  // namespace
 
+void append_slice(std::string& line, const Slice& slice) {
+  line += "{\"z\":";
+  append_number(line, slice.z);
+  line += ",\"contours\":[";
+  for (std::size_t i = 0; i < slice.contours.size(); ++i) {
+    if (i > 0) line += ',';
+    append_points(line, slice.contours[i].points);
+  }
+  line += ']';
+  append_labels(line, slice.contours);
+  line += '}';
+}
+
 void write_slices_json(std::ostream& out, std::span<const Slice> slices) {
   for (const Slice& slice : slices) {
-    std::string line = "{\"z\":";
-    append_number(line, slice.z);
-    line += ",\"contours\":[";
-    for (std::size_t i = 0; i < slice.contours.size(); ++i) {
-      if (i > 0) line += ',';
-      append_points(line, slice.contours[i].points);
-    }
-    line += ']';
-    append_labels(line, slice.contours);
-    line += "}\n";
+    std::string line;
+    append_slice(line, slice);
+    line += '\n';
     out << line;
   }
+}
+
+std::string to_line(const Edit& edit) {
+  std::string line;
+  if (edit.kind == Edit::Kind::remove) {
+    line = "{\"op\":\"remove\",\"z\":";
+    append_number(line, edit.slice.z);
+    return line + '}';
+  }
+  append_slice(line, edit.slice);
+  if (edit.kind == Edit::Kind::replace) line.insert(1, "\"op\":\"replace\",");
+  return line;
 }
 
 }  // namespace loft::io

@@ -4,6 +4,7 @@
 #include <istream>
 #include <ostream>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -26,6 +27,9 @@ namespace loft::io {
 /// machine has. Cost: O(n); a few lines are in memory at a time.
 [[nodiscard]] std::vector<Slice> read_slices_json(std::istream& in, std::string_view name,
                                                   unsigned threads = 0);
+
+/// Appends a slice as one line, without its end. Precondition: as write_slices_json().
+void append_slice(std::string& line, const Slice& slice);
 
 /// Writes slices so that read_slices_json() gives them back, exactly.
 /// Precondition: all numbers are finite, labels are UTF-8.
