@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many slabs in one draw call: they share buffers, in which each has a slot with some room to spare,
 // so that a slab of about the same size can take the slot of one that is gone.
-import { BatchedMesh, Box3, BufferAttribute, BufferGeometry, Color, Vector3 } from 'three';
+import { BatchedMesh, Box3, BufferAttribute, BufferGeometry, Vector3 } from 'three';
 
 function withRoom(count) {
   return Math.ceil((count * 1.25 + 16) / 64) * 64;
@@ -106,17 +106,7 @@ export class Batch {
   }
 }
 
-export function unionOf(boxes) {
-  const all = new Box3();
-  for (const box of boxes) all.union(box);
-  return all;
-}
-
 export function diagonal(positions) {
   const box = new Box3().setFromArray(positions);
   return box.isEmpty() ? 0 : box.getSize(new Vector3()).length();
-}
-
-export function colourFrom(linear) {
-  return linear ? new Color(...linear) : new Color(0.6, 0.66, 0.72);
 }

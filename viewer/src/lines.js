@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contours as thin lines, many slices to a draw call; only the page whose slice changed is redone.
-import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Vector3 } from 'three';
+import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Vector3 } from 'three';
 
 const slicesPerPage = 64;
 
@@ -45,11 +45,15 @@ export class Lines {
   #pageOf = new Map();
   #group;
 
-  constructor(group) {
-    this.#group = group;
+  constructor(scene) {
+    this.#group = new Group();
+    this.#group.visible = false;
+    scene.add(this.#group);
     this.material = new LineBasicMaterial({ transparent: true, opacity: 0.75 });
   }
 
+  get isShown() { return this.#group.visible; }
+  set isShown(isShown) { this.#group.visible = isShown; }
   has(z) { return this.#pageOf.has(z); }
 
   set(slice, frame) {

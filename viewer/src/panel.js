@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What the page says in words: the state of the connection, counts, and what was clicked.
+import { count, exact, number } from './text.js';
+
+const kept = 100;  // latencies that the median is of
+
+function element(id) {
+  return document.getElementById(id);
+}
+
+export function median(values) {
+  if (values.length === 0) return undefined;
+  const sorted = [...values].sort((a, b) => a - b);
+  return sorted[Math.floor(sorted.length / 2)];
+}
+
+export class Panel {
+  #latencies = [];
+  #wasConnected = false;
+
+  showCounts({ counts, volume, edits, unit }) {
+    for (const kind of ['slices', 'slabs', 'faces', 'vertices'])
+      element(kind).textContent = count(counts[kind]);
+    element('volume').textContent = `${number(volume)}${unit ? ` ${unit}³` : ''}`;
+    element('edits').textContent = count(edits);
+  }
+
+  addLatency(latency) {
+    if (!Number.isFinite(latency)) return;
+    this.#latencies = [...this.#latencies, latency].slice(-kept);
+    this.#showLatency(median(this.#latencies));
+  }
+
+  // The server's own figure, as long as there is none from here.
+  showStatus({ latency_ms: latency }) {
+    if (this.#latencies.length === 0 && latency?.last !== undefined) this.#showLatency(latency.median);
+  }
+
+  showConnected() {
+    element('state').textContent = 'Live';
+    element('state').dataset.state = 'live';
+    element('banner').hidden = true;
+    element('announcement').textContent = this.#wasConnected ? 'Connected again.' : '';
+    this.#wasConnected = true;
+  }
+
+  showLost() {
+    element('state').textContent = 'Not connected';
+    element('state').dataset.state = 'lost';
+    element('banner').hidden = false;
+    element('announcement').textContent = '';
+  }
+
+  showPending(pending, isEmpty) {
+    element('loading').textContent = pending > 0 ? `Loading ${count(pending)} slabs …` : '';
+    element('view').setAttribute('aria-busy', String(pending > 0));
+    element('empty').hidden = !isEmpty;
+  }
+
+  // `nearest` as nearestPoint() gives it.
+  showPick(slab, nearest, unit) {
+    const rows = [];
+    if (nearest) {
+      const [x, y] = nearest.slice.contours[nearest.contour][nearest.point];
+      const label = nearest.slice.labels?.[nearest.contour];
+      rows.push(['Slice', `z ${exact(nearest.slice.z)} ${unit}`],
+                ['Contour', `${nearest.contour}${label ? ` (${label})` : ''}`],
+                ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)}`]);
+    }
+    rows.push(['Slab', `${slab.id}${slab.label ? ` (${slab.label})` : ''}`],
+              ['Between', `${exact(slab.low)} and ${exact(slab.high)} ${unit}`],
+              ['Confidence', number(slab.confidence)], ['Made by edit', count(slab.edit)]);
+    const list = element('pick');
+    list.replaceChildren();
+    for (const [term, text] of rows) {
+      list.appendChild(document.createElement('dt')).textContent = term;
+      list.appendChild(document.createElement('dd')).textContent = text;
+    }
+    element('pick-hint').hidden = true;
+  }
+
+  forgetPick() {
+    element('pick').replaceChildren();
+    element('pick-hint').hidden = false;
+  }
+
+  #showLatency(latency) {
+    element('latency').textContent = latency === undefined ? '–' : `${number(Math.round(latency * 100) / 100)} ms`;
+  }
+}
