@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "io/svg.h"
@@ -65,11 +66,54 @@ struct InfoCommand {
   bool json = false;
 };
 
+/// `loft stream [IN] ...`
+struct StreamCommand {
+  std::optional<std::filesystem::path> input;  ///< not set or `-`: standard input
+  bool follows = false;                        ///< the file grows
+  bool has_input = true;
+  std::vector<std::filesystem::path> outputs;
+  std::optional<std::filesystem::path> replay;
+  std::optional<std::filesystem::path> session;
+  Options options;
+  std::string unit = "mm";
+  std::size_t every = 0;  ///< edits after which the outputs are written; 0: at the end only
+  bool serves = false;
+  std::string host = "127.0.0.1";
+  int port = 8337;
+  std::size_t most_megabytes = 16;  ///< of a body
+  bool strict = false;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `loft view FILE`
+struct ViewCommand {
+  std::filesystem::path file;
+  std::string host = "127.0.0.1";
+  int port = 8337;
+  std::string unit = "mm";
+  bool quiet = false;
+};
+
+/// `loft session list|export|verify FILE`
+struct SessionCommand {
+  enum class What { list, export_slices, verify };
+
+  What what = What::list;
+  std::filesystem::path file;
+  std::filesystem::path output = "-";  ///< `-`: standard output
+  bool edits = false;                  ///< export them, not the slices that they left
+  bool json = false;
+  bool quiet = false;
+};
+
 /// Each command prints its results on stdout and its words on stderr. Throws UsageError and
 /// loft::Error; outputs are complete or not there.
 [[nodiscard]] ExitCode run(const ReconstructCommand& command);
 [[nodiscard]] ExitCode run(const TriangulateCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);
 [[nodiscard]] ExitCode run(const InfoCommand& command);
+[[nodiscard]] ExitCode run(const StreamCommand& command);
+[[nodiscard]] ExitCode run(const SessionCommand& command);
 
 }  // namespace loft::app

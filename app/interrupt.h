@@ -9,4 +9,9 @@ void catch_interrupts();
 
 [[nodiscard]] bool is_interrupted();
 
+/// From now on SIGUSR1 is noted: somebody wants the output as it is.
+void catch_output_requests();
+/// Whether there was such a request since the last call.
+[[nodiscard]] bool take_output_request();
+
 }  // namespace loft::app

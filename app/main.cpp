@@ -30,6 +30,7 @@ std::string footer() {
          "  loft reconstruct a.ndjson b.ndjson -o both.ply -o both.glb --unit um --json\n"
          "  loft check skull.ply --stack skull.ndjson\n"
          "  loft info skull.ndjson\n"
+         "  loft stream capture.ndjson --follow --session capture.session --view\n"
          "  loft triangulate world.geojson -o world.svg\n"
          "\n"
          "Stacks: NDJSON, a slice a line, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}; a "
@@ -94,6 +95,60 @@ void add_triangle_options(CLI::App& sub, loft::Options& options) {
   target_edge->excludes(simplify);
 }
 
+/// What is inside, and how the ends are closed.
+void add_slice_options(CLI::App& sub, loft::Options& options) {
+  sub.add_option_function<std::string>(
+         "--fill",
+         [&options](const std::string& fill) {
+           options.fill = fill == "nonzero"   ? loft::Fill::nonzero
+                          : fill == "evenodd" ? loft::Fill::even_odd
+                                              : loft::Fill::keyhole_aware;
+         },
+         "What is inside: nested contours are holes (evenodd, default), overlapping ones make "
+         "their union (nonzero), or as evenodd with holes that a channel joins to their outline "
+         "taken out (keyhole-aware)")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"evenodd", "nonzero", "keyhole-aware"}));
+  sub.add_option("--keyhole-width", options.keyhole_width,
+                 "How wide such a channel may be, in the unit of the input (default 1/1000 of "
+                 "the contour's diagonal)")
+      ->type_name("LENGTH")
+      ->check(CLI::Validator(complain_of_distance, ""));
+  sub.add_option_function<std::string>(
+         "--cap",
+         [&options](const std::string& cap) {
+           options.cap = cap == "flat"   ? loft::Cap::flat
+                         : cap == "dome" ? loft::Cap::dome
+                                         : loft::Cap::open;
+         },
+         "What closes the first and last slice (default flat)")
+      ->type_name("CAP")
+      ->check(CLI::IsMember({"flat", "dome", "open"}));
+}
+
+/// How the surface goes from slice to slice.
+void add_slab_options(CLI::App& sub, loft::Options& options) {
+  sub.add_option_function<std::string>(
+         "--link",
+         [&options](const std::string& link) {
+           options.link = link == "auto"      ? loft::LinkRule::automatic
+                          : link == "overlap" ? loft::LinkRule::overlap
+                                              : loft::LinkRule::none;
+         },
+         "Which parts of neighbouring slices are joined: those that overlap, and those that belong "
+         "together by where they lie (auto, default); those that overlap; none, but for --links")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"auto", "overlap", "none"}));
+  sub.add_option("--max-shift", options.max_shift,
+                 "The farthest that --link auto moves a part sideways between two slices, in the "
+                 "unit of the input; by the parts' size where not given")
+      ->type_name("DISTANCE")
+      ->check(CLI::Validator(complain_of_distance, ""));
+  sub.add_flag("--smooth", options.smooth,
+               "Bend the surface between the slices as their neighbours suggest; it still passes "
+               "through every contour");
+}
+
 /// Adds `loft reconstruct`; the command is ready when the line has been parsed.
 CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
@@ -103,33 +158,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
-  sub->add_option_function<std::string>(
-         "--fill",
-         [&command](const std::string& fill) {
-           command.options.fill = fill == "nonzero"   ? loft::Fill::nonzero
-                                  : fill == "evenodd" ? loft::Fill::even_odd
-                                                      : loft::Fill::keyhole_aware;
-         },
-         "What is inside: nested contours are holes (evenodd, default), overlapping ones make "
-         "their union (nonzero), or as evenodd with holes that a channel joins to their outline "
-         "taken out (keyhole-aware)")
-      ->type_name("RULE")
-      ->check(CLI::IsMember({"evenodd", "nonzero", "keyhole-aware"}));
-  sub->add_option("--keyhole-width", command.options.keyhole_width,
-                  "How wide such a channel may be, in the unit of the input (default 1/1000 of "
-                  "the contour's diagonal)")
-      ->type_name("LENGTH")
-      ->check(CLI::Validator(complain_of_distance, ""));
-  sub->add_option_function<std::string>(
-         "--cap",
-         [&command](const std::string& cap) {
-           command.options.cap = cap == "flat"   ? loft::Cap::flat
-                                 : cap == "dome" ? loft::Cap::dome
-                                                 : loft::Cap::open;
-         },
-         "What closes the first and last slice (default flat)")
-      ->type_name("CAP")
-      ->check(CLI::IsMember({"flat", "dome", "open"}));
+  add_slice_options(*sub, command.options);
   sub->add_option("--threads", command.options.threads,
                   "Threads that work at the same time; 0 (default): as many as the machine has")
       ->type_name("N")
@@ -146,22 +175,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   sub->add_flag_callback("--in-memory", memory(Memory::in_memory),
                          "Read the stack as a whole, whatever its size")
       ->excludes(out);
-  sub->add_option_function<std::string>(
-         "--link",
-         [&command](const std::string& link) {
-           command.options.link = link == "auto"      ? loft::LinkRule::automatic
-                                  : link == "overlap" ? loft::LinkRule::overlap
-                                                      : loft::LinkRule::none;
-         },
-         "Which parts of neighbouring slices are joined: those that overlap, and those that belong "
-         "together by where they lie (auto, default); those that overlap; none, but for --links")
-      ->type_name("RULE")
-      ->check(CLI::IsMember({"auto", "overlap", "none"}));
-  sub->add_option("--max-shift", command.options.max_shift,
-                  "The farthest that --link auto moves a part sideways between two slices, in the "
-                  "unit of the input; by the parts' size where not given")
-      ->type_name("DISTANCE")
-      ->check(CLI::Validator(complain_of_distance, ""));
+  add_slab_options(*sub, command.options);
   sub->add_option("--links", command.links,
                   "Contours to join or to keep apart: a line {\"from\": [slice, contour], "
                   "\"to\": [slice, contour], \"link\": true or false} each")
@@ -173,11 +187,99 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
          "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
       ->type_name("UNIT")
       ->check(CLI::Validator(complain_of_unit, ""));
-  sub->add_flag("--smooth", command.options.smooth,
-                "Bend the surface between the slices as their neighbours suggest; it still passes "
-                "through every contour");
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  return sub;
+}
+
+/// Options of commands that serve.
+template <class Command>
+void add_address_options(CLI::App& sub, Command& command) {
+  sub.add_option("--host", command.host,
+                 "Address to listen on (default 127.0.0.1: this machine only; 0.0.0.0: anyone who "
+                 "can reach it)")
+      ->type_name("ADDRESS");
+  sub.add_option("--unit", command.unit,
+                 "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
+      ->type_name("UNIT")
+      ->check(CLI::Validator(complain_of_unit, ""));
+  sub.add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+}
+
+/// Adds `loft stream`; the command is ready when the line has been parsed.
+CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "stream", "Keep a surface up to date while its slices come, change and go");
+  sub->add_option("IN", command.input, "File of edits, a line each; - or nothing: standard input");
+  sub->add_flag("--follow", command.follows, "Wait for more at the end of IN: it grows");
+  sub->add_flag_callback(
+      "--no-input", [&command] { command.has_input = false; },
+      "Read no edits but those that are posted");
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, " + loft::io::surface_extensions() +
+                      "; written at the end and on SIGUSR1; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_option("--every", command.every, "Write the outputs after every N edits, too")
+      ->type_name("N");
+  sub->add_option("--session", command.session,
+                  "Keep every edit in this file before it is acknowledged; if it is there, go on "
+                  "from it")
+      ->type_name("FILE");
+  sub->add_flag_callback(
+      "--view", [&command] { command.serves = true; },
+      "Serve a page that shows the surface as it grows, and take edits by HTTP");
+  sub->add_option_function<int>(
+         "--port",
+         [&command](int port) {
+           command.port = port;
+           command.serves = true;
+         },
+         "Take edits by HTTP on this port (default 8337 with --view; 0: any that is free)")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535));
+  sub->add_option("--max-body", command.most_megabytes,
+                  "Largest body of a request, in MiB (default 16)")
+      ->type_name("MIB")
+      ->check(CLI::Range(1U, 1024U));
+  add_slice_options(*sub, command.options);
+  add_slab_options(*sub, command.options);
+  add_address_options(*sub, command);
+  sub->add_flag("--strict", command.strict, "Exit with 3 if an edit was bad");
+  sub->add_flag("--json", command.json, "Print a report as one JSON object at the end");
+  sub->footer(
+      "An edit is a slice as in a stack file, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}, "
+      "with\n\"op\": \"replace\" for one that is there already, or {\"op\": \"remove\", "
+      "\"z\": 1.5}.\nBad ones are reported and left out.\n\n"
+      "Examples:\n"
+      "  scanner | loft stream -o part.glb\n"
+      "  loft stream capture.ndjson --follow --session capture.session --view\n"
+      "  loft stream --no-input --port 8337 --session capture.session -o part.ply\n"
+      "  curl --data-binary @slices.ndjson http://127.0.0.1:8337/slices");
+  return sub;
+}
+
+/// Adds `loft session`; the command is ready when the line has been parsed.
+CLI::App* add_session(CLI::App& app, SessionCommand& command) {
+  CLI::App* sub = app.add_subcommand("session", "Look into the session of a stream");
+  sub->require_subcommand(1);
+  const auto add = [&](const char* name, const char* what, SessionCommand::What kind) {
+    CLI::App* one = sub->add_subcommand(name, what);
+    one->add_option("FILE", command.file, "Session file")->required();
+    one->callback([&command, kind] { command.what = kind; });
+    one->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+    return one;
+  };
+  add("list", "Show its edits, a line each, and how it was begun", SessionCommand::What::list)
+      ->add_flag("--json", command.json, "Print one JSON object");
+  CLI::App* exporting = add("export", "Write the slices that its edits have left as a stack file",
+                            SessionCommand::What::export_slices);
+  exporting->add_option("-o,--output", command.output, "Output file; - (default): standard output")
+      ->type_name("OUT");
+  exporting->add_flag("--edits", command.edits, "Write the edits as they came instead");
+  add("verify", "Check the file and every edit in it; exit code 1 if it is damaged",
+      SessionCommand::What::verify)
+      ->add_flag("--json", command.json, "Print one JSON object");
   return sub;
 }
 
@@ -235,10 +337,14 @@ ExitCode run_program(int argc, char** argv) {
   app.footer(footer());
   app.require_subcommand(1);
   ReconstructCommand reconstruct;
+  StreamCommand stream;
+  SessionCommand session;
   TriangulateCommand triangulate;
   CheckCommand check;
   InfoCommand info;
   const CLI::App* reconstruct_app = add_reconstruct(app, reconstruct);
+  const CLI::App* stream_app = add_stream(app, stream);
+  const CLI::App* session_app = add_session(app, session);
   const CLI::App* triangulate_app = add_triangulate(app, triangulate);
   const CLI::App* check_app = add_check(app, check);
   add_info(app, info);
@@ -248,6 +354,8 @@ ExitCode run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? ExitCode::ok : ExitCode::usage;
   }
   if (reconstruct_app->parsed()) return run(reconstruct);
+  if (stream_app->parsed()) return run(stream);
+  if (session_app->parsed()) return run(session);
   if (triangulate_app->parsed()) return run(triangulate);
   return check_app->parsed() ? run(check) : run(info);
 }

@@ -73,35 +73,71 @@ void add_face(const std::array<Vec3, 3>& corners, const std::array<NormalSum*, 3
   }
 }
 
+/// The normals of all faces, the faces that are wanted.
+class Shading {
+ public:
+  explicit Shading(const Mesh& mesh)
+      : mesh_(mesh), numbers_(group_count * mesh.points.size(), none) {}
+
+  template <class KindOf, class IsWanted>
+  ShadedMesh run(KindOf kind_of, IsWanted is_wanted) {
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f)
+      if (is_wanted(f)) add(mesh_.faces[f], group(kind_of(f)));
+    const double factor = normalising_factor(mesh_.points);
+    for (std::size_t f = 0; f < mesh_.faces.size(); ++f) {
+      std::array<Vec3, 3> corners{};
+      std::array<NormalSum*, 3> sums{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        corners[i] = times(mesh_.points[mesh_.faces[f][i]], factor);
+        const std::uint32_t number = this->number(mesh_.faces[f][i], group(kind_of(f)));
+        sums[i] = number == none ? &elsewhere_ : &sums_[number];
+      }
+      add_face(corners, sums);
+    }
+    for (const NormalSum& sum : sums_) shaded_.normals.push_back(sum.unit());
+    return std::move(shaded_);
+  }
+
+ private:
+  static constexpr std::uint32_t none = 0xffff'ffff;
+
+  [[nodiscard]] std::uint32_t& number(std::uint32_t point, Group of) {
+    return numbers_[group_count * point + static_cast<std::size_t>(of)];
+  }
+
+  void add(const std::array<std::uint32_t, 3>& face, Group of) {
+    std::array<std::uint32_t, 3>& corners = shaded_.faces.emplace_back();
+    for (std::size_t i = 0; i < 3; ++i) {
+      std::uint32_t& result = number(face[i], of);
+      if (result == none) {
+        result = static_cast<std::uint32_t>(shaded_.points.size());
+        shaded_.points.push_back(mesh_.points[face[i]]);
+        sums_.emplace_back().group = of;
+      }
+      corners[i] = result;
+    }
+  }
+
+  const Mesh& mesh_;
+  ShadedMesh shaded_;
+  std::vector<std::uint32_t> numbers_;  // of each point in each group
+  std::vector<NormalSum> sums_;
+  NormalSum elsewhere_;
+};
+
 }  // namespace
 
 ShadedMesh shade(const Surface& surface) {
-  constexpr std::uint32_t none = 0xffff'ffff;
   const Mesh mesh = to_mesh(surface);
-  ShadedMesh shaded;
-  std::vector<NormalSum> sums;
-  std::vector<std::uint32_t> number(group_count * mesh.points.size(), none);
-  const auto vertex = [&](std::uint32_t index, Group of) {
-    std::uint32_t& result = number[group_count * index + static_cast<std::size_t>(of)];
-    if (result != none) return result;
-    result = static_cast<std::uint32_t>(shaded.points.size());
-    shaded.points.push_back(mesh.points[index]);
-    sums.emplace_back().group = of;
-    return result;
-  };
+  return Shading(mesh).run(
+      [&](std::size_t f) { return surface.data(Surface::FaceHandle(static_cast<int>(f))).kind; },
+      [](std::size_t) { return true; });
+}
 
-  for (const auto face : surface.faces()) {
-    const Group of = group(surface.data(face).kind);
-    const auto& [a, b, c] = mesh.faces[static_cast<std::size_t>(face.idx())];
-    shaded.faces.push_back({vertex(a, of), vertex(b, of), vertex(c, of)});
-  }
-  const double factor = normalising_factor(shaded.points);
-  for (const auto& [a, b, c] : shaded.faces) {
-    const auto place = [&](std::uint32_t i) { return times(shaded.points[i], factor); };
-    add_face({place(a), place(b), place(c)}, {&sums[a], &sums[b], &sums[c]});
-  }
-  for (const NormalSum& sum : sums) shaded.normals.push_back(sum.unit());
-  return shaded;
+ShadedMesh shade(const Patch& patch, std::uint32_t slab) {
+  return Shading(patch.mesh)
+      .run([&](std::size_t f) { return patch.kinds[f]; },
+           [&](std::size_t f) { return patch.slabs[f] == slab; });
 }
 
 }  // namespace loft::io

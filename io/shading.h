@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "reconstruct/mesh.h"
+#include "reconstruct/snapshot.h"
 #include "reconstruct/surface.h"
 
 namespace loft::io {
@@ -22,5 +23,9 @@ struct ShadedMesh {
 /// length: where the faces around a vertex cancel, it is that of the widest one.
 /// Precondition: no deleted elements. Cost: O(n).
 [[nodiscard]] ShadedMesh shade(const Surface& surface);
+
+/// The faces of one slab of a patch, with normals that the slabs beside it in the patch smooth,
+/// too.
+[[nodiscard]] ShadedMesh shade(const Patch& patch, std::uint32_t slab);
 
 }  // namespace loft::io

@@ -30,10 +30,14 @@ constexpr std::array formats{
     Format{".obj", write_obj}, Format{".stl", write_stl},   Format{".off", write_off},
 };
 
-const Format& find_format(const std::filesystem::path& path) {
-  const auto found = std::ranges::find(formats, extension(path), &Format::extension);
+const Format& find_format(const std::filesystem::path& path, std::string_view extension) {
+  const auto found = std::ranges::find(formats, extension, &Format::extension);
   if (found == formats.end()) throw UnknownFormat(path, surface_extensions());
   return *found;
+}
+
+const Format& find_format(const std::filesystem::path& path) {
+  return find_format(path, extension(path));
 }
 
 }  // namespace
@@ -58,6 +62,11 @@ void write(const std::filesystem::path& path, std::span<const Part> parts,
   AtomicFile file(path);
   format.write(file.stream(), parts, options);
   file.commit();
+}
+
+void write(std::ostream& out, std::string_view extension, std::span<const Part> parts,
+           const WriteOptions& options) {
+  find_format("surface" + std::string(extension), extension).write(out, parts, options);
 }
 
 }  // namespace loft::io

@@ -2,8 +2,10 @@
 #pragma once
 
 #include <filesystem>
+#include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 
 #include "io/part.h"
 
@@ -15,6 +17,10 @@ namespace loft::io {
 /// Throws UnknownFormat, FileError, and Error where the format cannot hold the surfaces.
 /// Cost: O(n), with the file in memory.
 void write(const std::filesystem::path& path, std::span<const Part> parts,
+           const WriteOptions& options = {});
+
+/// The same into a stream, in the format of that extension, for example `.ply`.
+void write(std::ostream& out, std::string_view extension, std::span<const Part> parts,
            const WriteOptions& options = {});
 
 /// Whether write() could write this file now: throws what it would throw, without touching it.

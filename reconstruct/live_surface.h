@@ -79,6 +79,10 @@ class LiveSurface {
   explicit LiveSurface(bool is_open) : is_open_(is_open) {}
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
+  [[nodiscard]] std::size_t vertex_count() const {
+    return surface_.n_vertices() - free_vertices_.size();
+  }
+  [[nodiscard]] std::size_t face_count() const { return surface_.n_faces() - free_faces_.size(); }
 
   /// Law: afterwards the surface is the one that sewing all its layers at once would make. Handles
   /// of faces that stay, and of their edges and vertices, stay what they are.

@@ -91,8 +91,14 @@ class Reconstruction::Stack {
 
   SurfaceChange apply(Edits edits);
 
-  [[nodiscard]] const Surface& surface() const { return live_.surface(); }
+  [[nodiscard]] const LiveSurface& live() const { return live_; }
   void collect_garbage();
+  [[nodiscard]] std::size_t slab_count() const { return slabs_.size(); }
+  [[nodiscard]] double volume() const {
+    double sum = 0;
+    for (const auto& [z, slab] : slabs_) sum += slab.frozen->volume;
+    return sum;
+  }
   [[nodiscard]] const Stations& stations() const { return stations_; }
   [[nodiscard]] Snapshot snapshot() const;
   [[nodiscard]] std::vector<SlabInfo> slabs() const;
@@ -162,7 +168,10 @@ SurfaceChange Reconstruction::move_contour(double z, std::size_t contour,
   return stack_->apply({{z, std::move(slice)}});
 }
 
-const Surface& Reconstruction::surface() const { return stack_->surface(); }
+const Surface& Reconstruction::surface() const { return stack_->live().surface(); }
+std::size_t Reconstruction::vertex_count() const { return stack_->live().vertex_count(); }
+std::size_t Reconstruction::face_count() const { return stack_->live().face_count(); }
+double Reconstruction::volume() const { return stack_->volume(); }
 void Reconstruction::collect_garbage() { stack_->collect_garbage(); }
 std::size_t Reconstruction::slice_count() const { return stack_->stations().size(); }
 
@@ -177,6 +186,7 @@ std::vector<Slice> Reconstruction::slices() const {
   return all;
 }
 
+std::size_t Reconstruction::slab_count() const { return stack_->slab_count(); }
 std::vector<SlabInfo> Reconstruction::slabs() const { return stack_->slabs(); }
 std::vector<Defect> Reconstruction::repairs() const { return stack_->repairs(); }
 Snapshot Reconstruction::snapshot() const { return stack_->snapshot(); }
@@ -490,14 +500,12 @@ class Reconstruction::Stack::Edit {
     if (options.max_edge || options.target_edge)
       tiles = std::make_shared<const TileSet>(refine(lower, upper, *tiles, options));
     gap.made->shapes = shapes;
-    gap.made->frozen = std::make_shared<const FrozenSlab>(FrozenSlab{{0, lower.z, upper.z},
-                                                                     gap.lower->region,
-                                                                     gap.upper->region,
-                                                                     std::move(tiles),
-                                                                     std::move(linked),
-                                                                     std::move(pieces),
-                                                                     false,
-                                                                     false});
+    FrozenSlab frozen{{0, lower.z, upper.z}, gap.lower->region, gap.upper->region};
+    frozen.volume = loft::volume(lower, upper, *tiles);
+    frozen.tiles = std::move(tiles);
+    frozen.linked = std::move(linked);
+    frozen.pieces = std::move(pieces);
+    gap.made->frozen = std::make_shared<const FrozenSlab>(std::move(frozen));
   }
 
   /// Gives a slab that is new or changed its number.

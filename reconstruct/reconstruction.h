@@ -75,10 +75,15 @@ class Reconstruction {
   /// FaceTraits::slab do not count from below: they are the slice's number in order of arrival and
   /// the id of the slab. An id is given once; a slab that changes gets a new one.
   [[nodiscard]] const Surface& surface() const;
+  [[nodiscard]] std::size_t vertex_count() const;  ///< without what is deleted
+  [[nodiscard]] std::size_t face_count() const;
+  /// Enclosed; with Cap::open between the slices. Cost: O(number of slabs).
+  [[nodiscard]] double volume() const;
   /// Closes the holes that removed elements have left in the mesh, which makes all handles invalid.
   void collect_garbage();
 
   [[nodiscard]] std::size_t slice_count() const;
+  [[nodiscard]] std::size_t slab_count() const;
   /// The slice at a height, or null.
   [[nodiscard]] const Slice* find(double z) const;
   /// All slices, from low to high.

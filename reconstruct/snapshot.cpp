@@ -8,6 +8,43 @@
 
 namespace loft {
 
+namespace {
+
+double twice_area(cdt::Point a, cdt::Point b, cdt::Point c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+double area(const Region& region) {
+  double sum = 0;
+  for (std::size_t l = 0; l < region.loop_count(); ++l) {
+    const auto loop = region.loop(l);
+    const cdt::Point first = region.points[loop[0]];
+    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
+      sum += twice_area(first, region.points[loop[k]], region.points[loop[k + 1]]);
+  }
+  return sum / 2;
+}
+
+}  // namespace
+
+double volume(const Region& lower, const Region& upper, const TileSet& tiles) {
+  double sum = 0;
+  for (const Tile& tile : tiles.tiles) {
+    const Vec3 a = place_of(lower, upper, tiles.inner, tile.nodes[0]);
+    const Vec3 b = place_of(lower, upper, tiles.inner, tile.nodes[1]);
+    const Vec3 c = place_of(lower, upper, tiles.inner, tile.nodes[2]);
+    const double height = (a[2] - lower.z) + (b[2] - lower.z) + (c[2] - lower.z);
+    sum += height * twice_area({a[0], a[1]}, {b[0], b[1]}, {c[0], c[1]});
+  }
+  return sum / 6 + (upper.z - lower.z) * area(upper);
+}
+
+double Snapshot::volume() const {
+  double sum = 0;
+  for (const auto& slab : slabs_) sum += slab->volume;
+  return sum;
+}
+
 std::size_t Snapshot::find(std::uint32_t id) const {
   const auto found =
       std::ranges::find_if(slabs_, [id](const auto& slab) { return slab->info.id == id; });

@@ -40,15 +40,20 @@ struct Patch {
 
 /// A slab as it was when it was made; never changed.
 struct FrozenSlab {
-  SlabInfo info;
-  std::shared_ptr<const Region> lower;
-  std::shared_ptr<const Region> upper;
-  std::shared_ptr<const TileSet> tiles;   ///< as they are in the surface
-  std::shared_ptr<const TileSet> linked;  ///< as linking left them: the same, unless they were bent
-  std::shared_ptr<const Pieces> pieces;   ///< of the latter
+  SlabInfo info{};
+  std::shared_ptr<const Region> lower{};
+  std::shared_ptr<const Region> upper{};
+  std::shared_ptr<const TileSet> tiles{};   ///< as they are in the surface
+  std::shared_ptr<const TileSet> linked{};  ///< as linking left them: the same, unless they were bent
+  std::shared_ptr<const Pieces> pieces{};   ///< of the latter
+  double volume = 0;                      ///< enclosed between the slices
   bool has_bottom_cap = false;            ///< what is flat below and above the tiles
   bool has_top_cap = false;
 };
+
+/// The volume that tiles enclose between their slices: that of prisms down to the lower slice,
+/// under each tile and under the upper region. Cost: O(tiles).
+[[nodiscard]] double volume(const Region& lower, const Region& upper, const TileSet& tiles);
 
 /// A Reconstruction at one time: small, never changing, safe to use in any thread.
 class Snapshot {
@@ -70,6 +75,8 @@ class Snapshot {
   [[nodiscard]] SlabReport report(std::size_t i) const;
   /// The index of a slab, or slab_count() if there is none of that id.
   [[nodiscard]] std::size_t find(std::uint32_t id) const;
+
+  [[nodiscard]] double volume() const;  ///< of all slabs
 
   [[nodiscard]] std::size_t slice_count() const { return slices_.size(); }
   [[nodiscard]] const Slice& slice(std::size_t i) const { return *slices_[i]; }

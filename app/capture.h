@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "app/feed.h"
+#include "app/json.h"
+#include "io/edit.h"
+#include "io/session.h"
+#include "io/stack_state.h"
+#include "reconstruct/reconstruction.h"
+
+namespace loft::app {
+
+/// What became of an edit.
+struct Answer {
+  enum class Outcome {
+    taken,     ///< it is in the surface and, with a session, durable
+    rejected,  ///< it makes no sense there: `error` says why
+    not_kept,  ///< the session could not be written; the surface is as before
+  };
+
+  Outcome outcome = Outcome::taken;
+  std::string error = {};
+  std::vector<std::string> removed = {};  ///< slabs, as viewers know them
+  std::vector<std::string> added = {};
+  std::vector<std::string> repairs = {};
+  double latency_ms = 0;  ///< since it was submitted
+};
+
+/// A capture at one time, for output and viewers.
+struct CaptureView {
+  struct Part {
+    std::string label;
+    Snapshot snapshot;
+  };
+  std::vector<Part> parts;  ///< by the order in which labels came up
+  Vec3 origin{};            ///< that all GLBs of slabs are relative to
+  std::uint64_t edits = 0;
+};
+
+/// The surfaces of a stack that edits come for, from any number of threads. One thread of its own
+/// applies them in their order, one label after the other; what has been applied since the last
+/// time goes into the session in one transaction; then it is answered, and viewers are told.
+/// What waits to be applied is bounded: submit() waits, and says so when it has waited long enough.
+class Capture {
+ public:
+  struct Setup {
+    Options options = {};  ///< threads is ignored: one thread works
+    std::string unit = "mm";
+    double metres_per_unit = 0.001;
+    std::size_t most_waiting = 256;             ///< edits
+    std::size_t most_points_waiting = 4 << 20;  ///< points in them
+  };
+  enum class Submission { taken, full, closed };
+  using Done = std::function<void(const Answer&)>;
+
+  /// Applies what is in the session first. Throws FileError, and InputError where the session does
+  /// not fit to the options.
+  Capture(Setup setup, std::optional<io::Session> session, Feed& feed);
+  ~Capture();
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+
+  /// `done` is called once, by the capture's thread, if the edit was taken on.
+  Submission submit(io::Edit edit, Done done, std::chrono::milliseconds patience);
+  /// Takes no more; returns when everything that waits is done.
+  void close();
+
+  /// The state after some edit; the same object as long as nothing changes.
+  [[nodiscard]] std::shared_ptr<const CaptureView> view();
+  /// The slice at a height as it came in, or null.
+  [[nodiscard]] std::optional<Slice> slice(double z) const;
+  [[nodiscard]] std::vector<double> heights() const;
+
+  /// All that there is, as an event for a viewer that starts, and the number of the event after it.
+  [[nodiscard]] std::pair<std::string, std::uint64_t> reset_event() const;
+  [[nodiscard]] Json status() const;
+  /// Edits that were taken; and those that were rejected or not kept.
+  [[nodiscard]] std::uint64_t edit_count() const;
+  [[nodiscard]] std::uint64_t rejected_count() const;
+
+  [[nodiscard]] const Setup& setup() const { return setup_; }
+  [[nodiscard]] bool has_session() const { return session_.has_value(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  struct Job {
+    io::Edit edit;
+    Done done;
+    Clock::time_point begin;
+  };
+  struct Applied;
+  class NetChange;
+  struct Part {
+    std::string label;
+    std::unique_ptr<Reconstruction> surface;
+  };
+
+  void run();
+  [[nodiscard]] std::vector<Job> next_jobs();
+  void work_off(std::vector<Job> jobs);
+  [[nodiscard]] Applied apply(const io::Edit& edit);
+  void apply_to_parts(const io::Edit& edit, NetChange& change);
+  void add_parts(const Slice& slice, NetChange& change);
+  void publish(const io::Edit& edit, const NetChange& change, double latency_ms);
+  [[nodiscard]] Json counts() const;
+  [[nodiscard]] double volume() const;
+
+  Setup setup_;
+  std::optional<io::Session> session_;
+  Feed& feed_;
+
+  mutable std::mutex queue_mutex_;
+  std::condition_variable queue_changed_;
+  std::deque<Job> queue_;
+  std::size_t points_waiting_ = 0;
+  bool is_closed_ = false;
+
+  mutable std::mutex state_mutex_;  // of all below
+  io::StackState stack_;
+  std::vector<Part> parts_;
+  std::shared_ptr<const CaptureView> view_;
+  std::optional<Vec3> origin_;
+  std::uint64_t edits_ = 0;
+  std::uint64_t rejected_ = 0;
+  std::deque<double> latencies_;  // of the last edits
+
+  std::thread thread_;
+};
+
+}  // namespace loft::app

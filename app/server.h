@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "app/capture.h"
+#include "app/feed.h"
+
+namespace loft::app {
+
+/// Serves a capture over HTTP: edits in, surfaces out, and what viewers need.
+///
+///     POST /slices            one or many edits, a line each (io/edit.h): answered once they are
+///     in
+///                             the surface and, with a session, durable. 200 if all were taken;
+///                             each line is by itself: where some are bad the others are taken all
+///                             the same, and the answer says of each what became of it. 400 a line
+///                             is no edit, 413 too large, 422 an edit was rejected, 503 too many
+///                             wait (Retry-After), 507 the session could not be written: none was
+///                             kept
+///     GET /surface.glb        the surface as it is; also .gltf .ply .stl .obj .off
+///     GET /slabs/{id}.glb     a slab (io/slab_glb.h); 404 when it is gone
+///     GET /slices             all heights; ?z=1.25 the slice at that height, as a line
+///     GET /events             server-sent events: `reset` with all that there is, then `change`
+///                             for each edit; a reader that comes back with Last-Event-ID gets what
+///                             it has missed
+///     GET /status             counts, latencies, memory
+///     GET /                   the viewer
+///
+/// Nothing that comes over the network names a file. Requests for another host, or from pages of
+/// another site, are refused (403) while the address is one of this machine alone.
+class Server {
+ public:
+  struct Setup {
+    std::string host = "127.0.0.1";
+    int port = 0;                                     ///< 0: any that is free
+    std::size_t most_bytes = std::size_t{16} << 20U;  ///< of a body
+    bool is_read_only = false;
+  };
+
+  /// Binds and serves, in threads of its own. Throws Error where the address cannot be bound.
+  Server(const Setup& setup, Capture& capture, Feed& feed);
+  /// Lets requests end that have begun.
+  ~Server();
+  Server(const Server&) = delete;
+  Server& operator=(const Server&) = delete;
+
+  /// `http://127.0.0.1:8080/`
+  [[nodiscard]] const std::string& url() const { return url_; }
+
+ private:
+  class Routes;
+
+  std::string url_;
+  std::unique_ptr<Routes> routes_;
+};
+
+}  // namespace loft::app

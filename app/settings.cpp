@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: MIT
+#include "app/settings.h"
+
+#include <array>
+#include <charconv>
+#include <optional>
+
+#include "app/report.h"
+
+namespace loft::app {
+
+namespace {
+
+double number(const std::string& text) {
+  double value = 0;
+  std::from_chars(text.data(), text.data() + text.size(), value);
+  return value;
+}
+
+void set_length(std::optional<double>& length, const std::string& text) { length = number(text); }
+
+template <class Choice>
+void choose(Choice& choice, std::initializer_list<Choice> all, const std::string& text) {
+  for (const Choice one : all)
+    if (name(one) == text) choice = one;
+}
+
+void set(StreamCommand& command, const std::string& key, const std::string& value) {
+  Options& options = command.options;
+  if (key == "fill")
+    choose(options.fill, {Fill::even_odd, Fill::nonzero, Fill::keyhole_aware}, value);
+  if (key == "cap") choose(options.cap, {Cap::flat, Cap::dome, Cap::open}, value);
+  if (key == "link")
+    choose(options.link, {LinkRule::automatic, LinkRule::overlap, LinkRule::none}, value);
+  if (key == "smooth") options.smooth = value == "true";
+  if (key == "unit") command.unit = value;
+  if (key == "keyhole_width") set_length(options.keyhole_width, value);
+  if (key == "max_shift") set_length(options.max_shift, value);
+  if (key == "max_edge") set_length(options.max_edge, value);
+  if (key == "target_edge") set_length(options.target_edge, value);
+}
+
+}  // namespace
+
+std::map<std::string, std::string> settings_of(const StreamCommand& command) {
+  std::map<std::string, std::string> settings{{"fill", name(command.options.fill)},
+                                              {"cap", name(command.options.cap)},
+                                              {"link", name(command.options.link)},
+                                              {"smooth", command.options.smooth ? "true" : "false"},
+                                              {"unit", command.unit}};
+  for (const auto& [setting, length] : lengths(command.options)) settings[setting] = exact(length);
+  if (command.options.keyhole_width)
+    settings["keyhole_width"] = exact(*command.options.keyhole_width);
+  if (command.options.max_shift) settings["max_shift"] = exact(*command.options.max_shift);
+  return settings;
+}
+
+void take_over(const std::map<std::string, std::string>& settings, StreamCommand& command) {
+  const auto usual = settings_of(StreamCommand());
+  const auto asked = settings_of(command);
+  for (const auto& [key, value] : settings) {
+    const auto wanted = asked.find(key);
+    const bool is_asked =
+        wanted != asked.end() && (!usual.contains(key) || wanted->second != usual.at(key));
+    if (is_asked && wanted->second != value)
+      throw UsageError("the session was begun with " + key + ' ' + value + ", not " +
+                       wanted->second + "; leave the option out, or begin another session");
+  }
+  for (const auto& [key, value] : asked) {
+    if (settings.contains(key) || usual.contains(key)) continue;
+    throw UsageError("the session was begun without " + key +
+                     "; leave the option out, or begin another session");
+  }
+  for (const auto& [key, value] : settings) set(command, key, value);
+}
+
+}  // namespace loft::app

@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: MIT
+#include <array>
+#include <atomic>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/capture.h"
+#include "app/commands.h"
+#include "app/edit_source.h"
+#include "app/feed.h"
+#include "app/interrupt.h"
+#include "app/overwriting.h"
+#include "app/report.h"
+#include "app/saver.h"
+#include "app/server.h"
+#include "app/settings.h"
+#include "app/stopwatch.h"
+#include "app/surfaces.h"
+#include "app/terminal.h"
+#include "app/unit.h"
+#include "io/edit.h"
+#include "io/surfaces.h"
+
+namespace loft::app {
+
+namespace {
+
+using std::chrono::milliseconds;
+using std::filesystem::path;
+
+constexpr milliseconds tick{100};
+
+void check_outputs(const StreamCommand& command) {
+  std::vector<path> inputs;
+  if (command.input) inputs.push_back(*command.input);
+  if (command.session) inputs.push_back(*command.session);
+  forbid_overwriting(inputs, command.outputs);
+  for (const path& output : command.outputs) io::check_writable(output);
+}
+
+/// Opens or begins the session; what it was begun with holds.
+std::optional<io::Session> open_session(StreamCommand& command) {
+  if (!command.session) return {};
+  io::Session session(*command.session, io::Session::Access::write);
+  const auto settings = session.settings();
+  if (!settings.empty()) take_over(settings, command);
+  session.set_settings(settings_of(command));
+  return session;
+}
+
+Capture::Setup setup_of(const StreamCommand& command) {
+  Capture::Setup setup;
+  setup.options = command.options;
+  setup.unit = command.unit;
+  setup.metres_per_unit = metres_per_unit(command.unit).value_or(0.001);
+  return setup;
+}
+
+/// A stream while it runs.
+class Stream {
+ public:
+  Stream(const StreamCommand& command, std::optional<io::Session> session)
+      : command_(command),
+        terminal_(command.quiet),
+        capture_(setup_of(command), std::move(session), feed_),
+        saver_([this] { write_outputs(); }) {}
+
+  ExitCode run() {
+    if (capture_.edit_count() > 0)
+      terminal_.say("resumed: " + grouped(capture_.edit_count()) + " edits in the session");
+    saved_edits_ = capture_.edit_count();
+    if (command_.serves) serve();
+    if (command_.has_input) read_input();
+    while (command_.serves && !is_interrupted()) {
+      std::this_thread::sleep_for(tick);
+      look_after_outputs();
+    }
+    return finish();
+  }
+
+ private:
+  void serve() {
+    server_.emplace(Server::Setup{.host = command_.host,
+                                  .port = command_.port,
+                                  .most_bytes = command_.most_megabytes << 20U},
+                    capture_, feed_);
+    terminal_.say("listening on " + server_->url());
+  }
+
+  void read_input() {
+    EditSource source = command_.input && *command_.input != "-"
+                            ? EditSource::file(*command_.input, command_.follows)
+                            : EditSource::standard_input();
+    std::string line;
+    while (!is_interrupted()) {
+      switch (source.next(line, tick)) {
+        case EditSource::State::line:
+          take(source, line);
+          break;
+        case EditSource::State::ended:
+          return;
+        case EditSource::State::waiting:
+          break;
+      }
+      look_after_outputs();
+    }
+  }
+
+  void take(const EditSource& source, const std::string& line) {
+    if (line.find_first_not_of(" \t\r") == std::string::npos) return;
+    const std::string place = source.name() + ':' + std::to_string(source.line_number()) + ": ";
+    io::EditLine read = io::parse_edit_line(line);
+    for (const std::string& problem : read.problems) complain(place + problem);
+    if (!read.problems.empty()) {
+      ++bad_lines_;
+      return;
+    }
+    const auto done = [this, place](const Answer& answer) {
+      if (answer.outcome != Answer::Outcome::taken) complain(place + answer.error);
+      if (answer.outcome == Answer::Outcome::not_kept) is_failing_ = true;
+    };
+    // What comes faster than it can be worked on waits where it comes from.
+    while (!is_interrupted() && capture_.submit(read.edit, done, tick) == Capture::Submission::full)
+      look_after_outputs();
+  }
+
+  /// From any thread.
+  void complain(const std::string& words) {
+    const std::lock_guard lock(words_mutex_);
+    terminal_.complain(words);
+  }
+
+  void look_after_outputs() {
+    bool is_wanted = take_output_request();
+    if (command_.every > 0 && capture_.edit_count() >= saved_edits_ + command_.every) {
+      saved_edits_ = capture_.edit_count();
+      is_wanted = true;
+    }
+    if (is_wanted) saver_.request();
+    if (const std::string error = saver_.take_error(); !error.empty()) complain(error);
+  }
+
+  /// Of the surface as it is; none as long as there is none.
+  void write_outputs() {
+    const std::shared_ptr<const CaptureView> view = capture_.view();
+    const Surfaces surfaces(*view);
+    if (surfaces.parts().empty()) return;
+    io::WriteOptions options;
+    options.metres_per_unit = capture_.setup().metres_per_unit;
+    options.settings = settings_of(command_);
+    options.settings.erase("unit");
+    if (!command_.options.smooth) options.settings.erase("smooth");
+    for (const path& output : command_.outputs) io::write(output, surfaces.parts(), options);
+  }
+
+  ExitCode finish() {
+    server_.reset();
+    capture_.close();
+    feed_.close();
+    const Json status = capture_.status();
+    const bool has_surface = status["faces"] > 0;
+    if (has_surface) {
+      write_outputs();
+      for (const path& output : command_.outputs) terminal_.say("wrote " + output.string());
+    } else if (!command_.outputs.empty()) {
+      terminal_.warn("there is no surface: it needs two slices with an area; nothing was written");
+    }
+    const std::uint64_t rejected = bad_lines_ + capture_.rejected_count();
+    terminal_.say(grouped(capture_.edit_count()) + " edits, " + grouped(rejected) + " rejected; " +
+                  grouped(status["slices"].get<std::size_t>()) + " slices, " +
+                  grouped(status["faces"].get<std::size_t>()) + " triangles");
+    if (command_.json) print_report(status, rejected);
+    if (is_failing_) return ExitCode::cannot_write;
+    if (rejected > 0 && command_.strict) return ExitCode::bad_input;
+    return ExitCode::ok;
+  }
+
+  void print_report(Json status, std::uint64_t rejected) const {
+    status["rejected"] = rejected;
+    status.erase("queue");
+    status.erase("memory_bytes");
+    Json report{{"schema", "loft-stream"}, {"schema_version", 1}};
+    report.update(status);
+    report["outputs"] = names(command_.outputs);
+    std::cout << print(report) << '\n';
+  }
+
+  const StreamCommand& command_;
+  Terminal terminal_;
+  std::mutex words_mutex_;
+  Feed feed_;
+  Capture capture_;
+  std::optional<Server> server_;
+  std::uint64_t bad_lines_ = 0;
+  std::uint64_t saved_edits_ = 0;
+  std::atomic<bool> is_failing_ = false;
+  Saver saver_;  // looks at the capture: ends before it
+};
+
+}  // namespace
+
+ExitCode run(const StreamCommand& wanted) {
+  StreamCommand command = wanted;
+  check_outputs(command);
+  catch_interrupts();
+  catch_output_requests();
+  std::optional<io::Session> session = open_session(command);
+  return Stream(command, std::move(session)).run();
+}
+
+}  // namespace loft::app

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// What writers of glTF have in common; for their sources only, as it shows tinygltf.
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <cstddef>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "io/little_endian.h"
+#include "io/shading.h"
+#include "reconstruct/mesh.h"
+
+namespace loft::io {
+
+/// From the input's axes and unit to glTF's.
+struct Frame {
+  Vec3 centre{};  ///< in the input's axes and unit
+  double metres_per_unit = 1;
+
+  [[nodiscard]] static Vec3 turned(const Vec3& v) { return {v[0], v[2], -v[1]}; }
+  [[nodiscard]] Vec3 relative(const Vec3& p) const {
+    return turned({(p[0] - centre[0]) * metres_per_unit, (p[1] - centre[1]) * metres_per_unit,
+                   (p[2] - centre[2]) * metres_per_unit});
+  }
+  [[nodiscard]] Vec3 translation() const {
+    return turned(
+        {centre[0] * metres_per_unit, centre[1] * metres_per_unit, centre[2] * metres_per_unit});
+  }
+};
+
+/// Puts numbers behind one another into the model's only buffer.
+class Buffer {
+ public:
+  explicit Buffer(tinygltf::Model& model) : model_(model) { model_.buffers.resize(1); }
+
+  /// A view of `size` bytes for the numbers that are put next, and the accessor that reads them.
+  void begin(std::size_t size, int target, int component_type, int type, std::size_t count) {
+    std::vector<unsigned char>& data = model_.buffers[0].data;
+    data.resize((data.size() + 3) / 4 * 4);
+    tinygltf::BufferView view;
+    view.buffer = 0;
+    view.byteOffset = data.size();
+    view.byteLength = size;
+    view.target = target;
+    tinygltf::Accessor accessor;
+    accessor.bufferView = static_cast<int>(model_.bufferViews.size());
+    accessor.componentType = component_type;
+    accessor.type = type;
+    accessor.count = count;
+    model_.bufferViews.push_back(std::move(view));
+    model_.accessors.push_back(std::move(accessor));
+    data.resize(data.size() + size);
+    place_ = reinterpret_cast<char*>(data.data() + data.size() - size);
+  }
+
+  template <class Number>
+  void add(Number number) {
+    place_ = put(place_, number);
+  }
+
+  [[nodiscard]] int last_accessor() const { return static_cast<int>(model_.accessors.size()) - 1; }
+
+ private:
+  tinygltf::Model& model_;
+  char* place_ = nullptr;
+};
+
+/// Adds a mesh to the buffer and the model's accessors. Throws Error where it is too large for
+/// `float`.
+[[nodiscard]] tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffer,
+                                            tinygltf::Model& model);
+
+/// Not metallic, in the colour of that number: these are as far apart as can be for any count.
+[[nodiscard]] tinygltf::Material material(const std::string& name, std::size_t number,
+                                          bool is_double_sided);
+
+/// An empty model with its version, the program's name and a scene.
+[[nodiscard]] tinygltf::Model empty_model();
+
+/// Text that JSON can hold: where it is no UTF-8 (a file's name can be anything), its odd bytes are
+/// replaced.
+[[nodiscard]] std::string json_text(std::string text);
+
+/// Throws Error where that fails, and where the buffer is larger than glTF can say.
+void write_model(std::ostream& out, const tinygltf::Model& model, bool binary);
+
+}  // namespace loft::io
