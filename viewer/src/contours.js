@@ -59,7 +59,7 @@ export class Contours {
     this.#slices.set(z, null);
     this.#marks.set(z, mark);
     const isWanted = () => this.#heights.has(z) && this.#marks.get(z) === mark;
-    this.#loader.fetch(`slices?z=${z}`, isWanted, async (response) => {
+    this.#loader.fetch(`slices?z=${encodeURIComponent(z)}`, isWanted, async (response) => {
       const slice = await response.json();
       if (!isWanted()) return;
       this.#slices.set(z, slice);
@@ -72,19 +72,4 @@ export class Contours {
     for (const resolve of this.#waiting.get(z) ?? []) resolve(slice);
     this.#waiting.delete(z);
   }
-}
-
-// The contour point nearest to a place in the input's coordinates.
-export function nearestPoint(slices, [x, y, z]) {
-  let best;
-  for (const slice of slices) {
-    for (const [contour, points] of slice.contours.entries()) {
-      for (const [point, [px, py]] of points.entries()) {
-        const distance = Math.hypot(px - x, py - y, slice.z - z);
-        if (best && best.distance <= distance) continue;
-        best = { slice, contour, point, distance };
-      }
-    }
-  }
-  return best;
 }

@@ -3,17 +3,16 @@
 // scene, which is glTF's space scaled to a size that a camera copes with.
 import { Vector3 } from 'three';
 
-const metresOf = { m: 1, cm: 0.01, mm: 0.001, um: 1e-6, nm: 1e-9, in: 0.0254, ft: 0.3048 };
-
 export class Frame {
   #metres;
   #origin;
   #scale;
 
-  // `origin` is a node's translation; `size` a length in metres that becomes 1 to 10 in the scene.
+  // `unit`: its name, and how many metres it is; `origin` in metres as glTF has it; `size` a length in
+  // metres that becomes 1 to 10 in the scene.
   constructor(unit, origin, size) {
-    this.#metres = metresOf[unit] ?? (Number(unit) || 0.001);
-    this.unit = unit in metresOf ? unit.replace('um', 'µm') : 'units';
+    this.unit = Number.isFinite(Number(unit.name)) ? 'units' : unit.name.replace('um', 'µm');
+    this.#metres = unit.metres;
     this.#origin = origin;
     this.#scale = size > 0 ? 10 ** -Math.floor(Math.log10(size)) : 1;
   }
@@ -39,6 +38,11 @@ export class Frame {
   // A length in the input's unit.
   length(sceneLength) {
     return sceneLength / this.#scale / this.#metres;
+  }
+
+  // The height in the scene of a height in the input.
+  height(z) {
+    return this.#length(z, 1, 1);
   }
 
   #length(value, axis, sign) {

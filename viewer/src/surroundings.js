@@ -31,7 +31,7 @@ export class Surroundings {
   }
 
   // Returns the step of the grid, in the input's unit.
-  surround(box, frame) {
+  surround(box, frame, unit) {
     this.#box = box;
     this.#helper?.removeFromParent();
     if (box.isEmpty()) return undefined;
@@ -42,7 +42,7 @@ export class Surroundings {
     const size = box.getSize(new Vector3());
     const texts = [`x ${number(frame.length(size.x))}`, `z ${number(frame.length(size.y))}`,
                    `y ${number(frame.length(size.z))}`];
-    for (const [i, label] of this.#labels.entries()) label.textContent = `${texts[i]} ${frame.unit}`;
+    for (const [i, label] of this.#labels.entries()) label.textContent = `${texts[i]} ${unit}`;
     return this.#lay(box, size, frame);
   }
 

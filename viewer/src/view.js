@@ -4,7 +4,7 @@ import { Box3 } from 'three';
 import { Batch, diagonal } from './batch.js';
 import { colouring, explain } from './colours.js';
 import { Contours, nearestPoint } from './contours.js';
-import { Frame } from './frame.js';
+import { Frame, nameOf } from './frame.js';
 import { Highlight } from './highlight.js';
 import { Lines } from './lines.js';
 import { Loader } from './loader.js';
@@ -27,7 +27,8 @@ export class View {
   #picked;             // contour and point
   #loader = new Loader();
   #frame;
-  #unit = 'mm';
+  #unit = '';
+  #metresPerUnit = 0.001;
   #mode = 'label';
   #wasMoved = false;   // by the user: then nothing is fitted any more
   #isStale = false;    // box and colours
@@ -51,7 +52,7 @@ export class View {
 
   get mesh() { return this.#batch.mesh; }
   get heights() { return this.#contours.heights; }
-  get unit() { return this.#frame?.unit ?? new Frame(this.#unit, [0, 0, 0], 1).unit; }
+  get unit() { return this.#unit; }
 
   setColours({ background, grid, lines, accent }) {
     this.stage.background = background;
@@ -63,7 +64,8 @@ export class View {
 
   // All that the server has.
   reset(state) {
-    this.#unit = state.unit ?? 'mm';
+    this.#unit = nameOf(state.unit);
+    this.#metresPerUnit = state.metres_per_unit;
     this.#contours.reset(state.slices);
     this.#lines.clear();
     this.#fetch(this.#slabs.reset(state.slabs, performance.now()));
@@ -148,7 +150,7 @@ export class View {
   }
 
   #begin(slab) {
-    this.#frame = new Frame(this.#unit, slab.translation, diagonal(slab.positions));
+    this.#frame = new Frame(this.#metresPerUnit, slab.translation, diagonal(slab.positions));
     if (this.#settings) this.apply(this.#settings);
   }
 
@@ -173,7 +175,7 @@ export class View {
     explain(this.#legend, colours);
     if (!this.#frame) return;
     const box = this.#box();
-    this.#surroundings.surround(box, this.#frame);
+    this.#surroundings.surround(box, this.#frame, this.#unit);
     if (this.#wasMoved) this.stage.setRange(box);
     else this.stage.fit(box);
   }
