@@ -3,16 +3,20 @@
 // scene, which is glTF's space scaled to a size that a camera copes with.
 import { Vector3 } from 'three';
 
+// As people write it; a unit given as a number of metres has no name.
+export function nameOf(unit) {
+  if (unit === 'um') return 'µm';
+  return Number.isNaN(Number(unit)) ? unit : 'units';
+}
+
 export class Frame {
   #metres;
   #origin;
   #scale;
 
-  // `unit`: its name, and how many metres it is; `origin` in metres as glTF has it; `size` a length in
-  // metres that becomes 1 to 10 in the scene.
-  constructor(unit, origin, size) {
-    this.unit = Number.isFinite(Number(unit.name)) ? 'units' : unit.name.replace('um', 'µm');
-    this.#metres = unit.metres;
+  // `origin` is a node's translation; `size` a length in metres that becomes 1 to 10 in the scene.
+  constructor(metresPerUnit, origin, size) {
+    this.#metres = metresPerUnit;
     this.#origin = origin;
     this.#scale = size > 0 ? 10 ** -Math.floor(Math.log10(size)) : 1;
   }
@@ -27,7 +31,7 @@ export class Frame {
   }
 
   toScene(x, y, z, target = new Vector3()) {
-    return target.set(this.#length(x, 0, 1), this.#length(z, 1, 1), this.#length(y, 2, -1));
+    return target.set(this.#coordinate(x, 0), this.#coordinate(z, 1), this.#coordinate(-y, 2));
   }
 
   toInput(place) {
@@ -35,17 +39,12 @@ export class Frame {
     return [metres[0] / this.#metres, -metres[2] / this.#metres, metres[1] / this.#metres];
   }
 
-  // A length in the input's unit.
-  length(sceneLength) {
-    return sceneLength / this.#scale / this.#metres;
+  // A length of the scene in the input's unit.
+  length(length) {
+    return length / this.#scale / this.#metres;
   }
 
-  // The height in the scene of a height in the input.
-  height(z) {
-    return this.#length(z, 1, 1);
-  }
-
-  #length(value, axis, sign) {
-    return (sign * value * this.#metres - this.#origin[axis]) * this.#scale;
+  #coordinate(value, axis) {
+    return (value * this.#metres - this.#origin[axis]) * this.#scale;
   }
 }
