@@ -1,73 +1,61 @@
 // SPDX-License-Identifier: MIT
-// What the colour of a slab says: its label, how long ago it changed, how sure it is.
+// The colour of a slab: by its label, by how long ago it was made, by how sure it is.
 import { Color } from 'three';
 
-// From low to high; every step differs in lightness, too.
-const ramps = {
-  age: ['#f6c445', '#e07b54', '#a4507d', '#5b4a8a', '#39466b'],
-  confidence: ['#c0392b', '#e08a4f', '#e9d69a', '#7fb8a4', '#2f7f8f'],
-};
-const unknown = new Color('#9aa3ab');
+// Told apart by those who do not see red or green, too.
+const ages = ['#31456b', '#3f7f93', '#7db58d', '#f2dd83'];
+const confidences = ['#b3452c', '#e2a45e', '#d9dcdc', '#3f7ea6'];
 
-function onRamp(ramp, share, target) {
-  const place = Math.min(Math.max(share, 0), 1) * (ramp.length - 1);
-  const step = Math.min(Math.floor(place), ramp.length - 2);
-  return target.set(ramp[step]).lerp(new Color(ramp[step + 1]), place - step);
+export function ramp(colours, share) {
+  const place = Math.min(Math.max(share, 0), 1) * (colours.length - 1);
+  const lower = Math.min(Math.floor(place), colours.length - 2);
+  return new Color(colours[lower]).lerp(new Color(colours[lower + 1]), place - lower);
 }
 
-function byLabel(slab, target) {
-  return slab.colour ? target.setRGB(...slab.colour) : target.copy(unknown);
+function gradient(colours) {
+  return `linear-gradient(to right, ${colours.join(', ')})`;
 }
 
-// The newest edits are told apart best.
-function byAge(slab, target, { edits, first }) {
-  const share = Math.log2(1 + edits - slab.edit) / Math.log2(2 + edits - first);
-  return onRamp(ramps.age, share, target);
+function byLabel(slab) {
+  return new Color(...(slab.colour ?? [0.6, 0.66, 0.72]));
 }
 
-function byConfidence(slab, target) {
-  if (!Number.isFinite(slab.confidence)) return target.copy(unknown);
-  return onRamp(ramps.confidence, slab.confidence, target);
-}
-
-// A function (slab, target) for one way of colouring.
-export function colouring(mode, slabs, edits) {
-  if (mode === 'confidence') return byConfidence;
-  if (mode !== 'age') return byLabel;
-  let first = edits;
-  for (const slab of slabs) first = Math.min(first, slab.edit);
-  return (slab, target) => byAge(slab, target, { edits, first });
-}
-
-function element(name, className, text = '') {
-  const made = document.createElement(name);
-  made.className = className;
-  made.textContent = text;
-  return made;
-}
-
-function swatches(labels) {
-  const list = document.createElement('ul');
-  for (const [label, colour] of labels) {
-    const item = element('li', '');
-    const swatch = element('span', 'swatch');
-    swatch.style.background = `#${byLabel({ colour }, new Color()).getHexString()}`;
-    item.append(swatch, label || 'no label');
-    list.append(item);
+// A function that gives slabs their colour, and the legend that explains it.
+export function colouring(mode, slabs) {
+  if (mode === 'age') {
+    const edits = slabs.map((slab) => slab.edit);
+    const oldest = edits.reduce((a, b) => Math.min(a, b), Infinity);
+    const newest = edits.reduce((a, b) => Math.max(a, b), -Infinity);
+    const share = (edit) => (newest > oldest ? (edit - oldest) / (newest - oldest) : 1);
+    const ends = slabs.length > 0 ? [`edit ${oldest}`, `edit ${newest}`] : ['oldest', 'newest'];
+    return { of: (slab) => ramp(ages, share(slab.edit)), gradient: gradient(ages), ends };
   }
-  return list;
+  if (mode === 'confidence') {
+    return { of: (slab) => ramp(confidences, slab.confidence), gradient: gradient(confidences),
+             ends: ['0 unsure', '1 sure'] };
+  }
+  const labels = new Map();
+  for (const slab of slabs) if (slab.colour) labels.set(slab.label, byLabel(slab));
+  return { of: byLabel, labels: [...labels].sort(([a], [b]) => (a < b ? -1 : 1)) };
 }
 
-function ramp(mode) {
-  const bar = element('div', 'ramp');
-  bar.style.background = `linear-gradient(to right, ${ramps[mode].join(', ')})`;
-  const ends = element('div', 'ends');
-  const texts = mode === 'age' ? ['newest', 'oldest'] : ['unsure', 'sure'];
-  ends.append(...texts.map((text) => element('span', '', text)));
-  return [bar, ends];
-}
-
-// `labels`: the colour of each.
-export function fillLegend(legend, mode, labels) {
-  legend.replaceChildren(...(mode === 'label' ? [swatches(labels)] : ramp(mode)));
+// Fills `list` with what the colours mean.
+export function explain(list, { gradient: bar, ends, labels }) {
+  list.replaceChildren();
+  if (bar) {
+    const item = list.appendChild(document.createElement('li'));
+    item.className = 'ramp';
+    const swatch = item.appendChild(document.createElement('span'));
+    swatch.className = 'bar';
+    swatch.style.backgroundImage = bar;
+    for (const end of ends) item.appendChild(document.createElement('span')).textContent = end;
+    return;
+  }
+  for (const [label, colour] of labels) {
+    const item = list.appendChild(document.createElement('li'));
+    const swatch = item.appendChild(document.createElement('span'));
+    swatch.className = 'swatch';
+    swatch.style.backgroundColor = `#${colour.getHexString()}`;
+    item.append(label || 'without a label');
+  }
 }

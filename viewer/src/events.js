@@ -1,84 +1,67 @@
 // SPDX-License-Identifier: MIT
-// Server-sent events. Not through EventSource, which does not tell that a connection is dead, gives up
-// on some errors, and waits for as long as it likes.
+// The server's events. The browser connects anew by itself and says which event was the last; where
+// it gives up, or the connection is dead without saying so, this does.
 
-const silence = 25_000;                        // ms without even a heartbeat: the connection is dead
-const pauses = [300, 600, 1000, 2000, 3000];   // ms before the next attempt
+const shortest = 500;    // ms between two attempts
+const longest = 15000;
+const watch = 10000;     // ms between two looks at the server
 
-// Cuts a stream of text into events; comments are heartbeats and nothing else.
-export class EventParser {
-  #text = '';
+export class Events extends EventTarget {
+  #source;
+  #pause = shortest;
+  #timer;
+  #isOpen = false;
 
-  *parse(text) {
-    this.#text += text;
-    const blocks = this.#text.split('\n\n');
-    this.#text = blocks.pop();
-    for (const block of blocks) {
-      const event = { id: undefined, type: 'message', data: '' };
-      for (const line of block.split('\n')) {
-        const [, field, value] = /^(\w+): ?(.*)$/.exec(line) ?? [];
-        if (field === 'id') event.id = value;
-        if (field === 'event') event.type = value;
-        if (field === 'data') event.data += value;
-      }
-      if (event.data) yield event;
-    }
-  }
-}
-
-export class Events {
-  #address;
-  #take;
-  #tell;
-  #last;
-  #failures = 0;
-
-  // take(type, data) gets each event; tell(state) hears 'live' and 'lost'. What was missed in between
-  // comes when the connection is there again.
-  constructor(address, take, tell) {
-    this.#address = address;
-    this.#take = take;
-    this.#tell = tell;
+  start() {
+    this.#open();
+    setInterval(() => this.#look(), watch);
+    addEventListener('online', () => this.restart());
   }
 
-  async run() {
-    for (;;) {
-      try {
-        await this.#listen();
-      } catch {
-        // Refused, cut off or silent: the same to those who watch.
-      }
-      this.#tell('lost');
-      const pause = pauses[Math.min(this.#failures++, pauses.length - 1)];
-      await new Promise((resolve) => setTimeout(resolve, pause));
+  // From the beginning: the server says all that there is.
+  restart() {
+    clearTimeout(this.#timer);
+    this.#open();
+  }
+
+  #open() {
+    this.#source?.close();
+    this.#source = new EventSource('events');
+    this.#source.addEventListener('open', () => this.#tell(true));
+    this.#source.addEventListener('error', () => this.#fail());
+    for (const kind of ['reset', 'change']) {
+      this.#source.addEventListener(kind, (event) => {
+        this.#tell(true);
+        this.dispatchEvent(new CustomEvent(kind, { detail: JSON.parse(event.data) }));
+      });
     }
   }
 
-  async #listen() {
-    const abort = new AbortController();
-    const headers = this.#last === undefined ? {} : { 'Last-Event-ID': this.#last };
-    let timer = setTimeout(() => abort.abort(), silence);
+  #tell(isOpen) {
+    if (isOpen) this.#pause = shortest;
+    if (isOpen === this.#isOpen) return;
+    this.#isOpen = isOpen;
+    this.dispatchEvent(new CustomEvent(isOpen ? 'connected' : 'lost'));
+  }
+
+  #fail() {
+    const isOver = this.#source.readyState === EventSource.CLOSED;
+    this.#isOpen = true;  // also where the first attempt fails
+    this.#tell(false);
+    if (!isOver) return;
+    clearTimeout(this.#timer);
+    this.#timer = setTimeout(() => this.#open(), this.#pause);
+    this.#pause = Math.min(2 * this.#pause, longest);
+  }
+
+  async #look() {
+    if (!this.#isOpen) return;
     try {
-      const response = await fetch(this.#address, { headers, signal: abort.signal, cache: 'no-store' });
-      if (!response.ok) throw new Error(String(response.status));
-      const parser = new EventParser();
-      const reader = response.body.pipeThrough(new TextDecoderStream()).getReader();
-      for (;;) {
-        const { done, value } = await reader.read();
-        if (done) return;
-        clearTimeout(timer);
-        timer = setTimeout(() => abort.abort(), silence);
-        this.#failures = 0;
-        this.#tell('live');
-        for (const event of parser.parse(value)) this.#handle(event);
-      }
-    } finally {
-      clearTimeout(timer);
+      const response = await fetch('status', { signal: AbortSignal.timeout(watch), cache: 'no-store' });
+      if (response.ok) this.dispatchEvent(new CustomEvent('status', { detail: await response.json() }));
+    } catch {
+      this.restart();
+      this.#tell(false);
     }
-  }
-
-  #handle({ id, type, data }) {
-    this.#take(type, JSON.parse(data));
-    if (id !== undefined) this.#last = id;
   }
 }

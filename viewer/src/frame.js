@@ -3,16 +3,20 @@
 // scene, which is glTF's space scaled to a size that a camera copes with.
 import { Vector3 } from 'three';
 
+// How a unit is written.
+export function nameOf(unit) {
+  return Number.isFinite(Number(unit)) ? 'units' : unit.replace('um', 'µm');
+}
+
 export class Frame {
   #metres;
   #origin;
   #scale;
 
-  // `unit`: its name, and how many metres it is; `origin` in metres as glTF has it; `size` a length in
-  // metres that becomes 1 to 10 in the scene.
-  constructor(unit, origin, size) {
-    this.unit = Number.isFinite(Number(unit.name)) ? 'units' : unit.name.replace('um', 'µm');
-    this.#metres = unit.metres;
+  // `metres`: of the input's unit; `origin` in metres as glTF has it; `size` a length in metres that
+  // becomes 1 to 10 in the scene.
+  constructor(metres, origin, size) {
+    this.#metres = metres;
     this.#origin = origin;
     this.#scale = size > 0 ? 10 ** -Math.floor(Math.log10(size)) : 1;
   }
@@ -38,11 +42,6 @@ export class Frame {
   // A length in the input's unit.
   length(sceneLength) {
     return sceneLength / this.#scale / this.#metres;
-  }
-
-  // The height in the scene of a height in the input.
-  height(z) {
-    return this.#length(z, 1, 1);
   }
 
   #length(value, axis, sign) {
