@@ -49,8 +49,7 @@ Slice fifty(std::size_t i, std::size_t points, bool in_plate) {
   for (int k = 0; k < 50; ++k)
     slice.contours.push_back(wobbly(points / 50, 4, {10.0 * (k % 10), 10.0 * (k / 10)},
                                     0.1 * static_cast<double>(i) + k));
-  if (in_plate)
-    slice.contours.push_back({{{-20, -20}, {120, -20}, {120, 80}, {-20, 80}}, ""});
+  if (in_plate) slice.contours.push_back({{{-20, -20}, {120, -20}, {120, 80}, {-20, 80}}, ""});
   return slice;
 }
 
@@ -82,14 +81,13 @@ std::vector<double> times(std::size_t count, Body body) {
 void time_whole_slices(std::size_t slices, std::size_t points, std::size_t edits) {
   const std::size_t before = mallinfo2().uordblks;
   Reconstruction live;
-  const auto inserts = times(slices, [&](std::size_t i) {
-    static_cast<void>(live.insert(one_curve(i, points, 0)));
-  });
+  const auto inserts = times(
+      slices, [&](std::size_t i) { static_cast<void>(live.insert(one_curve(i, points, 0))); });
   report("insert on top", inserts);
   const auto memory = [&] {
-    std::printf("memory: %.0f bytes a contour vertex\n",
-                static_cast<double>(mallinfo2().uordblks - before) /
-                    static_cast<double>(slices * points));
+    std::printf(
+        "memory: %.0f bytes a contour vertex\n",
+        static_cast<double>(mallinfo2().uordblks - before) / static_cast<double>(slices * points));
   };
   memory();
   std::mt19937_64 random(1);
@@ -118,14 +116,13 @@ void time_one_of_fifty(std::size_t slices, std::size_t points, std::size_t edits
                                   contour = moved(contour, i % 2 == 0 ? 0.01 : -0.01);
                                 static_cast<void>(live.replace(slice.z, std::move(slice)));
                               }));
-  const double one = report("  move one contour", times(edits, [&](std::size_t i) {
-                              const double z = static_cast<double>(random() % slices);
-                              const std::size_t contour = random() % 50;
-                              static_cast<void>(live.move_contour(
-                                  z, contour,
-                                  moved(live.find(z)->contours[contour], i % 2 == 0 ? 0.01 : -0.01)
-                                      .points));
-                            }));
+  const double one = report(
+      "  move one contour", times(edits, [&](std::size_t i) {
+        const double z = static_cast<double>(random() % slices);
+        const std::size_t contour = random() % 50;
+        static_cast<void>(live.move_contour(
+            z, contour, moved(live.find(z)->contours[contour], i % 2 == 0 ? 0.01 : -0.01).points));
+      }));
   std::printf("  ratio %.2f\n", one / whole);
 }
 
@@ -140,9 +137,10 @@ void time_vessel() {
   for (std::size_t i = 0; i < slices; ++i) static_cast<void>(live.insert(slice(i, 0)));
   const double frame =
       report("a frame of the vessel, 60 x 200, all replaced", times(100, [&](std::size_t f) {
+               std::vector<Slice> wanted;
                for (std::size_t i = 0; i < slices; ++i)
-                 static_cast<void>(live.replace(static_cast<double>(i),
-                                                slice(i, 0.2 * static_cast<double>(f + 1))));
+                 wanted.push_back(slice(i, 0.2 * static_cast<double>(f + 1)));
+               static_cast<void>(live.replace(std::move(wanted)));
              }));
   std::printf("frames a second: %.0f\n", 1e3 / frame);
 }

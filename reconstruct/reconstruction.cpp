@@ -152,6 +152,21 @@ SurfaceChange Reconstruction::replace(double z, Slice slice) {
   return stack_->apply({{z, std::nullopt}, {new_z, std::move(slice)}});
 }
 
+SurfaceChange Reconstruction::replace(std::vector<Slice> slices) {
+  Edits edits;
+  for (Slice& slice : slices) {
+    if (find(slice.z) == nullptr) throw no_slice(slice.z);
+    edits.emplace_back(slice.z, std::move(slice));
+  }
+  std::ranges::sort(edits, {}, [](const auto& edit) { return edit.first; });
+  const auto twice = std::ranges::adjacent_find(
+      edits, [](const auto& a, const auto& b) { return a.first == b.first; });
+  if (twice != edits.end())
+    throw InputError("two slices for z = " + text(twice->first) + "; each height has one");
+  if (edits.empty()) return {};
+  return stack_->apply(std::move(edits));
+}
+
 SurfaceChange Reconstruction::remove(double z) {
   if (find(z) == nullptr) throw no_slice(z);
   return stack_->apply({{z, std::nullopt}});
@@ -408,10 +423,10 @@ class Reconstruction::Stack::Edit {
     auto slab = is_bottom ? stack_.slabs_.begin() : stack_.slabs_.lower_bound(low);
     for (; slab != stack_.slabs_.end() && (is_top || slab->first < high); ++slab) {
       auto& [z, there] = *slab;
-      const auto gap = std::ranges::find_if(gaps_, [&](const Gap& one) {
-        return one.lower->region == there.frozen->lower && one.upper->region == there.frozen->upper;
-      });
-      if (gap == gaps_.end()) {
+      const auto gap = std::ranges::lower_bound(
+          gaps_, z, {}, [](const Gap& one) { return one.lower->region->z; });
+      if (gap == gaps_.end() || gap->lower->region != there.frozen->lower ||
+          gap->upper->region != there.frozen->upper) {
         gone_.push_back(z);
       } else {
         gap->there = &there;

@@ -65,6 +65,10 @@ class Reconstruction {
   /// Only what its contours change is made anew.
   /// Throws as insert(), and where there is no slice at z, or another one at the new height.
   SurfaceChange replace(double z, Slice slice);
+  /// Puts each slice into the place of the one at its height, all as one edit: a shape that moves.
+  /// Each slab is made once, so that this takes about half the time of one after the other.
+  /// Throws as replace(), and where two slices have the same height.
+  SurfaceChange replace(std::vector<Slice> slices);
   /// Throws InputError where there is no slice at z.
   SurfaceChange remove(double z);
   /// Gives a contour of the slice at z other points; it keeps its label.

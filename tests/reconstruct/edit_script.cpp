@@ -191,6 +191,10 @@ std::string RandomEdits::next(Reconstruction& live) {
     live.replace(z, Slice{z, {}});
   } else if (kind < 16) {
     return reject(live);
+  } else if (kind == 16) {
+    auto all = live.slices();
+    for (Slice& slice : all) jog(slice);
+    live.replace(std::move(all));
   } else if (kind < 18) {
     const Slice& slice = *live.find(z);
     if (slice.contours.empty()) return "";
