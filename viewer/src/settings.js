@@ -50,10 +50,11 @@ export class Settings extends EventTarget {
     this.#tell();
   }
 
-  setSlices(heights, unit) {
+  // The heights of the slices, and how far the surface reaches.
+  setHeights(heights, range, unit) {
     this.#heights = heights;
     this.#unit = unit;
-    this.#range = heights.length > 1 ? [heights[0], heights.at(-1)] : undefined;
+    this.#range = range;
     const slider = element('slice');
     slider.max = Math.max(heights.length - 1, 0);
     slider.disabled = element('slice-on').disabled = heights.length === 0;

@@ -53,6 +53,8 @@ export class View {
 
   get heights() { return this.#contours.heights; }
   get unit() { return this.#unit; }
+  // From the lowest to the highest height.
+  get range() { return this.#slabs.range; }
 
   setColours({ background, grid, lines, accent }) {
     this.stage.background = background;
@@ -69,6 +71,7 @@ export class View {
     this.#contours.reset(state.slices);
     this.#lines.clear();
     this.#fetch(this.#slabs.reset(state.slabs, performance.now()));
+    this.#panel.showDownloads(state.downloads ?? ['.glb', '.ply']);
     this.#tell(state);
   }
 
@@ -108,8 +111,9 @@ export class View {
     this.forgetPick();
     if (!slab) return undefined;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
-    const nearest = nearestPoint(slices.filter(Boolean), this.#frame.toInput(hit.point), slab.label);
-    this.#panel.showPick(slab, nearest, this.unit);
+    const place = this.#frame.toInput(hit.point);
+    const nearest = nearestPoint(slices.filter(Boolean), place, slab.label);
+    this.#panel.showPick(slab, place, nearest, this.unit);
     this.#mark(nearest);
     return nearest;
   }
@@ -168,7 +172,7 @@ export class View {
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
-    this.#surroundings.placeLabels(this.stage.camera, this.stage.canvas);
+    this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
   }
 
   #refresh() {
