@@ -49,8 +49,8 @@ export class Panel {
   }
 
   // The server's own figure, as long as there is none from here.
-  showStatus({ latency_ms: latency }) {
-    if (this.#latencies.length === 0 && latency?.last !== undefined) this.#showLatency(latency.median);
+  showStatus({ latency_ms: latency, edits }) {
+    if (this.#latencies.length === 0 && edits > 0) this.#showLatency(latency?.median);
   }
 
   showConnected() {

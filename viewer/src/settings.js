@@ -101,8 +101,8 @@ export class Settings extends EventTarget {
   }
 
   #show() {
-    const slice = this.#z === undefined ? '–' : `z ${exact(this.#z)} ${this.#unit}`;
-    const cut = this.#range ? `z ${number(this.#cutHeight())} ${this.#unit}` : '–';
+    const slice = this.#z === undefined ? '–' : `${exact(this.#z)} ${this.#unit}`;
+    const cut = this.#range ? `${number(this.#cutHeight())} ${this.#unit}` : '–';
     for (const [id, text] of [['slice', slice], ['cut', cut]]) {
       element(`${id}-height`).textContent = text;
       element(id).setAttribute('aria-valuetext', text);

@@ -67,6 +67,7 @@ export class View {
   // All that the server has.
   reset(state) {
     this.#unit = nameOf(state.unit);
+    if (this.#slots.size === 0 || this.#metresPerUnit !== state.metres_per_unit) this.#frame = undefined;
     this.#metresPerUnit = state.metres_per_unit;
     this.#contours.reset(state.slices);
     this.#lines.clear();
@@ -220,7 +221,7 @@ export class View {
 
   async #applySlice(z) {
     const slice = z === undefined ? undefined : await this.#contours.ask(z);
-    if (z !== this.#settings.slice) return;  // another one has been chosen meanwhile
+    if (!this.#frame || z !== this.#settings.slice) return;  // another one has been chosen meanwhile
     this.#chosen.showSlice(slice, this.#frame);
     this.stage.invalidate();
   }
