@@ -9,6 +9,7 @@ function element(id) {
 export class Settings extends EventTarget {
   #heights = [];
   #z;
+  #isChosen = false;  // else the middle one is shown
   #range;
   #share = 0.5;  // the cut's height, from the bottom to the top
   #unit = '';
@@ -59,27 +60,27 @@ export class Settings extends EventTarget {
     slider.max = Math.max(heights.length - 1, 0);
     slider.disabled = element('slice-on').disabled = heights.length === 0;
     element('cut').disabled = element('cut-on').disabled = element('cut-below').disabled = !this.#range;
-    this.#z = this.#nearest(this.#z ?? heights[Math.floor(heights.length / 2)]);
+    this.#z = this.#isChosen ? this.#nearest(this.#z) : heights[Math.floor(heights.length / 2)];
     slider.value = Math.max(heights.indexOf(this.#z), 0);
     this.#show();
   }
 
   // Makes a slice the chosen one.
   choose(z) {
+    this.#isChosen = true;
     this.#z = this.#nearest(z);
     element('slice').value = this.#heights.indexOf(this.#z);
     this.#show();
   }
 
   #nearest(z) {
-    if (z === undefined) return undefined;
     let best = this.#heights[0];
     for (const height of this.#heights) if (Math.abs(height - z) < Math.abs(best - z)) best = height;
     return best;
   }
 
   #choose() {
-    this.#z = this.#heights[Number(element('slice').value)];
+    this.choose(this.#heights[Number(element('slice').value)]);
     element('slice-on').checked = true;
     this.#tell();
   }
