@@ -1,52 +1,64 @@
 // SPDX-License-Identifier: MIT
-// node build.mjs OUT.cpp: bundles the page and writes it as a C++ source (app/assets.h).
+// Bundles the page and writes it as C++: node build.mjs OUT.cpp, where node_modules is.
 import { readFile, writeFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
 import { fileURLToPath } from 'node:url';
-import { build, transform } from 'esbuild';
 
-const here = (name) => fileURLToPath(new URL(name, import.meta.url));
+const folder = dirname(fileURLToPath(import.meta.url));
+const out = process.argv[2];
+if (!out) throw new Error('usage: node build.mjs OUT.cpp');
 
-async function script() {
-  const result = await build({ entryPoints: [here('src/main.js')], bundle: true, minify: true, format: 'esm',
-    target: 'es2022', legalComments: 'inline', write: false });
-  return result.outputFiles[0].contents;
-}
+const { build } = createRequire(join(process.cwd(), 'package.json'))('esbuild');
+const bundle = await build({
+  absWorkingDir: folder,
+  nodePaths: [join(process.cwd(), 'node_modules')],
+  entryPoints: { viewer: 'src/main.js', style: 'viewer.css' },
+  bundle: true,
+  minify: true,
+  format: 'esm',
+  target: 'es2022',
+  legalComments: 'eof',
+  write: false,
+  outdir: 'dist',
+});
 
-async function style() {
-  const { code } = await transform(await readFile(here('style.css'), 'utf8'), { loader: 'css', minify: true });
-  return Buffer.from(code);
-}
-
-// As `char`, which is signed or not.
-function array(name, content) {
-  const numbers = Array.from(content, (byte) => (byte < 128 ? byte : `'\\x${byte.toString(16)}'`));
-  const lines = [];
-  for (let i = 0; i < numbers.length; i += 40) lines.push(numbers.slice(i, i + 40).join(','));
-  return `constexpr char ${name}[] = {\n${lines.join(',\n')}};\n`;
-}
-
+const bundled = (end) => bundle.outputFiles.find((file) => file.path.endsWith(end)).contents;
 const files = [
-  { name: 'page', path: '/', type: 'text/html; charset=utf-8', content: await readFile(here('index.html')) },
-  { name: 'script', path: '/viewer.js', type: 'text/javascript; charset=utf-8', content: await script() },
-  { name: 'style', path: '/viewer.css', type: 'text/css; charset=utf-8', content: await style() },
+  ['/', 'text/html; charset=utf-8', await readFile(join(folder, 'index.html'))],
+  ['/viewer.js', 'text/javascript; charset=utf-8', bundled('.js')],
+  ['/viewer.css', 'text/css; charset=utf-8', bundled('.css')],
+  ['/icon.svg', 'image/svg+xml', await readFile(join(folder, 'icon.svg'))],
 ];
-const entries = files.map(({ name, path, type }) => `  {"${path}", "${type}", {${name}, sizeof ${name}}},\n`);
-const source = `// SPDX-License-Identifier: MIT
-// Made by viewer/build.mjs.
+
+// Octal escapes end after three digits: what comes next is never taken for one more.
+function escaped(byte) {
+  const isPlain = byte >= 32 && byte <= 126 && !'"?\\'.includes(String.fromCharCode(byte));
+  return isPlain ? String.fromCharCode(byte) : `\\${byte.toString(8).padStart(3, '0')}`;
+}
+
+function literal(bytes) {
+  const lines = [];
+  for (let i = 0; i < bytes.length; i += 4096)
+    lines.push(`"${Array.from(bytes.subarray(i, i + 4096), escaped).join('')}"`);
+  return lines.join('\n');
+}
+
+const entries = files.map(([path, type, bytes]) =>
+  `Asset{"${path}", "${type}", std::string_view(\n${literal(bytes)},\n${bytes.length})}`);
+
+await writeFile(out, `// Made by viewer/build.mjs.
+#include <array>
+
 #include "app/assets.h"
 
 namespace loft::app {
 
-namespace {
-
-${files.map(({ name, content }) => array(name, content)).join('\n')}
-constexpr Asset all[] = {
-${entries.join('')}};
-
-}  // namespace
-
-std::span<const Asset> assets() { return all; }
+std::span<const Asset> assets() {
+  static constexpr std::array files{
+${entries.join(',\n')}};
+  return files;
+}
 
 }  // namespace loft::app
-`;
-await writeFile(process.argv[2], source);
+`);

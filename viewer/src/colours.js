@@ -6,7 +6,7 @@ import { Color } from 'three';
 const ages = ['#31456b', '#3f7f93', '#7db58d', '#f2dd83'];
 const confidences = ['#b3452c', '#e2a45e', '#d9dcdc', '#3f7ea6'];
 
-export function ramp(colours, share) {
+function onRamp(colours, share) {
   const place = Math.min(Math.max(share, 0), 1) * (colours.length - 1);
   const lower = Math.min(Math.floor(place), colours.length - 2);
   return new Color(colours[lower]).lerp(new Color(colours[lower + 1]), place - lower);
@@ -20,42 +20,46 @@ function byLabel(slab) {
   return new Color(...(slab.colour ?? [0.6, 0.66, 0.72]));
 }
 
-// A function that gives slabs their colour, and the legend that explains it.
+function byAge(slabs) {
+  let [oldest, newest] = [Infinity, -Infinity];
+  for (const { edit } of slabs) {
+    oldest = Math.min(oldest, edit);
+    newest = Math.max(newest, edit);
+  }
+  const share = (edit) => (newest > oldest ? (edit - oldest) / (newest - oldest) : 1);
+  const ends = slabs.length > 0 ? [`edit ${oldest}`, `edit ${newest}`] : ['oldest', 'newest'];
+  return { of: (slab) => onRamp(ages, share(slab.edit)), gradient: gradient(ages), ends };
+}
+
+// What gives slabs their colour (`of`), and what the legend has to say about it.
 export function colouring(mode, slabs) {
-  if (mode === 'age') {
-    const edits = slabs.map((slab) => slab.edit);
-    const oldest = edits.reduce((a, b) => Math.min(a, b), Infinity);
-    const newest = edits.reduce((a, b) => Math.max(a, b), -Infinity);
-    const share = (edit) => (newest > oldest ? (edit - oldest) / (newest - oldest) : 1);
-    const ends = slabs.length > 0 ? [`edit ${oldest}`, `edit ${newest}`] : ['oldest', 'newest'];
-    return { of: (slab) => ramp(ages, share(slab.edit)), gradient: gradient(ages), ends };
-  }
-  if (mode === 'confidence') {
-    return { of: (slab) => ramp(confidences, slab.confidence), gradient: gradient(confidences),
-             ends: ['0 unsure', '1 sure'] };
-  }
+  if (mode === 'age') return byAge(slabs);
+  if (mode === 'confidence')
+    return { of: (slab) => onRamp(confidences, slab.confidence), gradient: gradient(confidences), ends: ['unsure', 'sure'] };
   const labels = new Map();
   for (const slab of slabs) if (slab.colour) labels.set(slab.label, byLabel(slab));
   return { of: byLabel, labels: [...labels].sort(([a], [b]) => (a < b ? -1 : 1)) };
+}
+
+function add(parent, name, className, text = '') {
+  const element = parent.appendChild(document.createElement(name));
+  element.className = className;
+  element.textContent = text;
+  return element;
 }
 
 // Fills `list` with what the colours mean.
 export function explain(list, { gradient: bar, ends, labels }) {
   list.replaceChildren();
   if (bar) {
-    const item = list.appendChild(document.createElement('li'));
-    item.className = 'ramp';
-    const swatch = item.appendChild(document.createElement('span'));
-    swatch.className = 'bar';
-    swatch.style.backgroundImage = bar;
-    for (const end of ends) item.appendChild(document.createElement('span')).textContent = end;
+    const item = add(list, 'li', 'ramp');
+    add(item, 'span', 'bar').style.backgroundImage = bar;
+    for (const end of ends) add(item, 'span', '', end);
     return;
   }
   for (const [label, colour] of labels) {
-    const item = list.appendChild(document.createElement('li'));
-    const swatch = item.appendChild(document.createElement('span'));
-    swatch.className = 'swatch';
-    swatch.style.backgroundColor = `#${colour.getHexString()}`;
-    item.append(label || 'without a label');
+    const item = add(list, 'li', '');
+    add(item, 'span', 'swatch').style.backgroundColor = `#${colour.getHexString()}`;
+    item.append(label || 'no label');
   }
 }

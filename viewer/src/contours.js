@@ -73,18 +73,3 @@ export class Contours {
     this.#waiting.delete(z);
   }
 }
-
-// The contour point nearest to a place in the input's coordinates.
-export function nearestPoint(slices, [x, y, z]) {
-  let best;
-  for (const slice of slices) {
-    for (const [contour, points] of slice.contours.entries()) {
-      for (const [point, [px, py]] of points.entries()) {
-        const distance = Math.hypot(px - x, py - y, slice.z - z);
-        if (best && best.distance <= distance) continue;
-        best = { slice, contour, point, distance };
-      }
-    }
-  }
-  return best;
-}

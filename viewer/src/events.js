@@ -3,14 +3,15 @@
 // it gives up, or the connection is dead without saying so, this does.
 
 const shortest = 500;    // ms between two attempts
-const longest = 15000;
-const watch = 10000;     // ms between two looks at the server
+const longest = 15_000;
+const watch = 10_000;    // ms between two looks at the server
 
+// Dispatches `reset` and `change` with what the server says, `status`, and `connected` or `lost`.
 export class Events extends EventTarget {
   #source;
   #pause = shortest;
   #timer;
-  #isOpen = false;
+  #state = 'waiting';
 
   start() {
     this.#open();
@@ -27,41 +28,38 @@ export class Events extends EventTarget {
   #open() {
     this.#source?.close();
     this.#source = new EventSource('events');
-    this.#source.addEventListener('open', () => this.#tell(true));
+    this.#source.addEventListener('open', () => this.#tell('connected'));
     this.#source.addEventListener('error', () => this.#fail());
     for (const kind of ['reset', 'change']) {
-      this.#source.addEventListener(kind, (event) => {
-        this.#tell(true);
-        this.dispatchEvent(new CustomEvent(kind, { detail: JSON.parse(event.data) }));
+      this.#source.addEventListener(kind, ({ data }) => {
+        this.dispatchEvent(new CustomEvent(kind, { detail: JSON.parse(data) }));
       });
     }
   }
 
-  #tell(isOpen) {
-    if (isOpen) this.#pause = shortest;
-    if (isOpen === this.#isOpen) return;
-    this.#isOpen = isOpen;
-    this.dispatchEvent(new CustomEvent(isOpen ? 'connected' : 'lost'));
-  }
-
   #fail() {
-    const isOver = this.#source.readyState === EventSource.CLOSED;
-    this.#isOpen = true;  // also where the first attempt fails
-    this.#tell(false);
-    if (!isOver) return;
+    this.#tell('lost');
+    if (this.#source.readyState !== EventSource.CLOSED) return;
     clearTimeout(this.#timer);
     this.#timer = setTimeout(() => this.#open(), this.#pause);
     this.#pause = Math.min(2 * this.#pause, longest);
   }
 
+  #tell(state) {
+    if (state === 'connected') this.#pause = shortest;
+    if (state === this.#state) return;
+    this.#state = state;
+    this.dispatchEvent(new CustomEvent(state));
+  }
+
   async #look() {
-    if (!this.#isOpen) return;
+    if (this.#state !== 'connected') return;
     try {
-      const response = await fetch('status', { signal: AbortSignal.timeout(watch), cache: 'no-store' });
+      const response = await fetch('status', { signal: AbortSignal.timeout(watch) });
       if (response.ok) this.dispatchEvent(new CustomEvent('status', { detail: await response.json() }));
     } catch {
+      this.#tell('lost');
       this.restart();
-      this.#tell(false);
     }
   }
 }

@@ -3,9 +3,10 @@
 // scene, which is glTF's space scaled to a size that a camera copes with.
 import { Vector3 } from 'three';
 
-// How a unit is written.
+// As people write it; a unit given as a number of metres has no name.
 export function nameOf(unit) {
-  return Number.isFinite(Number(unit)) ? 'units' : unit.replace('um', 'µm');
+  if (unit === 'um') return 'µm';
+  return Number.isNaN(Number(unit)) ? unit : 'units';
 }
 
 export class Frame {
@@ -13,10 +14,9 @@ export class Frame {
   #origin;
   #scale;
 
-  // `metres`: of the input's unit; `origin` in metres as glTF has it; `size` a length in metres that
-  // becomes 1 to 10 in the scene.
-  constructor(metres, origin, size) {
-    this.#metres = metres;
+  // `origin` is a node's translation; `size` a length in metres that becomes 1 to 10 in the scene.
+  constructor(metresPerUnit, origin, size) {
+    this.#metres = metresPerUnit;
     this.#origin = origin;
     this.#scale = size > 0 ? 10 ** -Math.floor(Math.log10(size)) : 1;
   }
@@ -31,7 +31,7 @@ export class Frame {
   }
 
   toScene(x, y, z, target = new Vector3()) {
-    return target.set(this.#length(x, 0, 1), this.#length(z, 1, 1), this.#length(y, 2, -1));
+    return target.set(this.#coordinate(x, 0), this.#coordinate(z, 1), this.#coordinate(-y, 2));
   }
 
   toInput(place) {
@@ -39,12 +39,12 @@ export class Frame {
     return [metres[0] / this.#metres, -metres[2] / this.#metres, metres[1] / this.#metres];
   }
 
-  // A length in the input's unit.
-  length(sceneLength) {
-    return sceneLength / this.#scale / this.#metres;
+  // A length of the scene in the input's unit.
+  length(length) {
+    return length / this.#scale / this.#metres;
   }
 
-  #length(value, axis, sign) {
-    return (sign * value * this.#metres - this.#origin[axis]) * this.#scale;
+  #coordinate(value, axis) {
+    return (value * this.#metres - this.#origin[axis]) * this.#scale;
   }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 import { Events } from './events.js';
-import { hitAt, onClick } from './pick.js';
+import { onClick } from './pick.js';
 import { listenToKeys } from './keys.js';
 import { Panel } from './panel.js';
 import { Settings } from './settings.js';
@@ -43,8 +43,8 @@ function listen() {
 }
 
 async function pick(x, y) {
-  const picked = await view.pick(hitAt(view.stage, view.mesh, x, y));
-  if (picked?.nearest) settings.choose(picked.nearest.slice.z);
+  const nearest = await view.pick(x, y);
+  if (nearest) settings.choose(nearest.slice.z);
   view.apply(settings);
 }
 
@@ -58,7 +58,7 @@ function connectControls() {
   listenToKeys(view.stage, {
     f: () => view.fit(), c: () => settings.toggle('contours'), s: () => settings.reach('slice'),
     x: () => settings.reach('cut'), v: () => settings.toggle('cut-below'), l: () => settings.nextColour(),
-    t: () => theme.toggle(), '?': help, h: help,
+    p: () => pick(0, 0), t: () => theme.toggle(), '?': help, h: help,
     escape: () => view.forgetPick(),
   });
 }

@@ -25,6 +25,10 @@ export class Panel {
     element('edits').textContent = count(edits);
   }
 
+  showGrid(step, unit) {
+    element('grid').textContent = step === undefined ? '–' : `${number(step)} ${unit}`;
+  }
+
   addLatency(latency) {
     if (!Number.isFinite(latency)) return;
     this.#latencies = [...this.#latencies, latency].slice(-kept);

@@ -58,6 +58,11 @@ export class Stage {
     this.invalidate();
   }
 
+  // Whether the cut leaves a place.
+  keeps(place) {
+    return !this.renderer.localClippingEnabled || this.cut.distanceToPoint(place) >= 0;
+  }
+
   // Looks at all of a box, from where it looks now.
   fit(box) {
     if (box.isEmpty()) return;

@@ -3,11 +3,12 @@
 import { Box3 } from 'three';
 import { Batch, diagonal } from './batch.js';
 import { colouring, explain } from './colours.js';
-import { Contours, nearestPoint } from './contours.js';
+import { Contours } from './contours.js';
 import { Frame, nameOf } from './frame.js';
 import { Highlight } from './highlight.js';
 import { Lines } from './lines.js';
 import { Loader } from './loader.js';
+import { hitAt, nearestPoint } from './pick.js';
 import { parseSlab } from './glb.js';
 import { Slabs } from './slabs.js';
 import { Stage } from './scene.js';
@@ -50,7 +51,6 @@ export class View {
     setInterval(() => this.#settle(), settleEvery);
   }
 
-  get mesh() { return this.#batch.mesh; }
   get heights() { return this.#contours.heights; }
   get unit() { return this.#unit; }
 
@@ -100,15 +100,18 @@ export class View {
     this.stage.fit(this.#box());
   }
 
-  // Says what was hit, and marks the contour point next to it. Resolves to both, if anything was.
-  async pick(hit) {
+  // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to that
+  // point, if there is any.
+  async pick(x, y) {
+    const hit = hitAt(this.stage, this.#batch.mesh, x, y);
     const slab = hit && [...this.#slots].find(([, slot]) => slot.instance === hit.batchId)?.[0];
-    if (!slab) return this.forgetPick();
+    this.forgetPick();
+    if (!slab) return undefined;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
-    const nearest = nearestPoint(slices.filter(Boolean), this.#frame.toInput(hit.point));
+    const nearest = nearestPoint(slices.filter(Boolean), this.#frame.toInput(hit.point), slab.label);
     this.#panel.showPick(slab, nearest, this.unit);
     this.#mark(nearest);
-    return { slab, nearest };
+    return nearest;
   }
 
   forgetPick() {
@@ -175,7 +178,7 @@ export class View {
     explain(this.#legend, colours);
     if (!this.#frame) return;
     const box = this.#box();
-    this.#surroundings.surround(box, this.#frame, this.#unit);
+    this.#panel.showGrid(this.#surroundings.surround(box, this.#frame, this.#unit), this.#unit);
     if (this.#wasMoved) this.stage.setRange(box);
     else this.stage.fit(box);
   }
