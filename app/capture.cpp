@@ -98,8 +98,8 @@ class Capture::NetChange {
   }
 
  private:
-  std::map<std::pair<std::size_t, std::uint32_t>, std::pair<std::string, SlabInfo>> added_;
-  std::vector<std::string> removed_;
+  std::map<SlabKey, std::pair<std::string, SlabInfo>> added_;
+  std::vector<SlabKey> removed_;
   std::vector<std::string> repairs_;
 };
 
@@ -120,6 +120,7 @@ Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
         throw InputError("edit " + std::to_string(number) +
                          " of the session cannot be applied: " + applied.answer.error);
       applied.change.note(++edits_, births_);
+      if (setup_.observe) setup_.observe(applied.answer, *view_now());
     });
   }
   thread_ = std::thread([this] { run(); });
@@ -159,7 +160,9 @@ std::vector<Capture::Job> Capture::next_jobs() {
   std::unique_lock lock(queue_mutex_);
   queue_changed_.wait(lock, [&] { return is_closed_ || !queue_.empty(); });
   std::vector<Job> jobs;
-  while (!queue_.empty() && jobs.size() < most_at_once) {
+  // Who observes wants to see the surface after each.
+  const std::size_t most = setup_.observe ? 1 : most_at_once;
+  while (!queue_.empty() && jobs.size() < most) {
     points_waiting_ -= point_count(queue_.front().edit);
     jobs.push_back(std::move(queue_.front()));
     queue_.pop_front();
@@ -202,6 +205,7 @@ void Capture::work_off(std::vector<Job> jobs) {
         latencies_.push_back(answer.latency_ms);
         if (latencies_.size() > latency_count) latencies_.pop_front();
         publish(jobs[i].edit, all[i].change, answer.latency_ms);
+        if (setup_.observe) setup_.observe(answer, *view_now());
       }
     } else {
       for (std::size_t i = jobs.size(); i-- > 0;) {
@@ -333,6 +337,10 @@ double Capture::volume() const {
 
 std::shared_ptr<const CaptureView> Capture::view() {
   const std::lock_guard lock(state_mutex_);
+  return view_now();
+}
+
+std::shared_ptr<const CaptureView> Capture::view_now() {
   if (view_) return view_;
   auto view = std::make_shared<CaptureView>();
   for (const Part& part : parts_) view->parts.push_back({part.label, part.surface->snapshot()});

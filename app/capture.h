@@ -63,6 +63,8 @@ class Capture {
     double metres_per_unit = 0.001;
     std::size_t most_waiting = 256;             ///< edits
     std::size_t most_points_waiting = 4 << 20;  ///< points in them
+    /// Called after each edit that was taken, in the capture's thread, in their order.
+    std::function<void(const Answer&, const CaptureView&)> observe = {};
   };
   enum class Submission { taken, full, closed };
   using Done = std::function<void(const Answer&)>;
@@ -115,6 +117,7 @@ class Capture {
   void run();
   [[nodiscard]] std::vector<Job> next_jobs();
   void work_off(std::vector<Job> jobs);
+  [[nodiscard]] std::shared_ptr<const CaptureView> view_now();
   [[nodiscard]] Applied apply(const io::Edit& edit);
   void apply_to_parts(const io::Edit& edit, NetChange& change);
   void add_parts(const Slice& slice, NetChange& change);
