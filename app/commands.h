@@ -73,6 +73,7 @@ struct StreamCommand {
   bool has_input = true;
   std::vector<std::filesystem::path> outputs;
   std::optional<std::filesystem::path> replay;
+  double replay_rate = 20;  ///< edits a second in it
   std::optional<std::filesystem::path> session;
   Options options;
   std::string unit = "mm";

@@ -222,6 +222,13 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
       ->allow_extra_args(false);
   sub->add_option("--every", command.every, "Write the outputs after every N edits, too")
       ->type_name("N");
+  sub->add_option("--replay", command.replay,
+                  "GLB file, written at the end: an animation in which the slabs appear as they "
+                  "came; of a session, too")
+      ->type_name("OUT.glb");
+  sub->add_option("--replay-rate", command.replay_rate, "Edits a second in it (default 20)")
+      ->type_name("N")
+      ->check(CLI::Validator(complain_of_length, ""));
   sub->add_option("--session", command.session,
                   "Keep every edit in this file before it is acknowledged; if it is there, go on "
                   "from it")

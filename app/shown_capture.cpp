@@ -17,8 +17,8 @@ std::optional<std::string> ShownCapture::slab(std::size_t part, std::uint32_t id
   if (i == snapshot.slab_count()) return {};
   const Capture::Setup& setup = capture_.setup();
   return io::slab_glb(snapshot, i,
-                      {label, part, view->edits, setup.options.cap == Cap::open, view->origin,
-                       setup.metres_per_unit});
+                      {label, part, capture_.birth(part, id), setup.options.cap == Cap::open,
+                       view->origin, setup.metres_per_unit});
 }
 
 std::optional<std::string> ShownCapture::surface(std::string_view extension) {

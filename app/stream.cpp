@@ -24,7 +24,10 @@
 #include "app/surfaces.h"
 #include "app/terminal.h"
 #include "app/unit.h"
+#include "io/atomic_file.h"
 #include "io/edit.h"
+#include "io/file.h"
+#include "io/replay.h"
 #include "io/surfaces.h"
 
 namespace loft::app {
@@ -42,6 +45,11 @@ void check_outputs(const StreamCommand& command) {
   if (command.session) inputs.push_back(*command.session);
   forbid_overwriting(inputs, command.outputs);
   for (const path& output : command.outputs) io::check_writable(output);
+  if (!command.replay) return;
+  forbid_overwriting(inputs, std::array{*command.replay});
+  if (io::extension(*command.replay) != ".glb")
+    throw UsageError(command.replay->string() + ": a replay is a .glb file");
+  io::check_writable(*command.replay);
 }
 
 /// Opens or begins the session; what it was begun with holds.
@@ -53,6 +61,35 @@ std::optional<io::Session> open_session(StreamCommand& command) {
   session.set_settings(settings_of(command));
   return session;
 }
+
+/// Films a capture.
+class Recorder {
+ public:
+  Recorder(double metres_per_unit, double rate) : replay_(metres_per_unit), rate_(rate) {}
+
+  void add(const Answer& answer, const CaptureView& view) {
+    const double time = static_cast<double>(count_++) / rate_;
+    for (const std::string& slab : answer.removed) replay_.remove(time, slab);
+    for (const std::string& slab : answer.added) {
+      const std::size_t dash = slab.find('-');
+      const std::size_t part = std::stoul(slab.substr(0, dash));
+      const auto& [label, snapshot] = view.parts[part];
+      const auto id = static_cast<std::uint32_t>(std::stoul(slab.substr(dash + 1)));
+      replay_.add(time, slab, snapshot, snapshot.find(id), label, part);
+    }
+  }
+
+  void write(const path& file) const {
+    io::AtomicFile output(file);
+    replay_.write(output.stream());
+    output.commit();
+  }
+
+ private:
+  io::Replay replay_;
+  double rate_;
+  std::size_t count_ = 0;
+};
 
 Capture::Setup setup_of(const StreamCommand& command) {
   Capture::Setup setup;
@@ -68,7 +105,8 @@ class Stream {
   Stream(const StreamCommand& command, std::optional<io::Session> session)
       : command_(command),
         terminal_(command.quiet),
-        capture_(setup_of(command), std::move(session), feed_),
+        recorder_(metres_per_unit(command.unit).value_or(0.001), command.replay_rate),
+        capture_(setup(), std::move(session), feed_),
         saver_([this] { write_outputs(); }) {}
 
   ExitCode run() {
@@ -85,6 +123,15 @@ class Stream {
   }
 
  private:
+  [[nodiscard]] Capture::Setup setup() {
+    Capture::Setup setup = setup_of(command_);
+    if (command_.replay)
+      setup.observe = [this](const Answer& answer, const CaptureView& view) {
+        recorder_.add(answer, view);
+      };
+    return setup;
+  }
+
   void serve() {
     server_.emplace(Server::Setup{.host = command_.host,
                                   .port = command_.port,
@@ -168,7 +215,11 @@ class Stream {
     if (has_surface) {
       write_outputs();
       for (const path& output : command_.outputs) terminal_.say("wrote " + output.string());
-    } else if (!command_.outputs.empty()) {
+      if (command_.replay) {
+        recorder_.write(*command_.replay);
+        terminal_.say("wrote " + command_.replay->string());
+      }
+    } else if (!command_.outputs.empty() || command_.replay) {
       terminal_.warn("there is no surface: it needs two slices with an area; nothing was written");
     }
     const std::uint64_t rejected = bad_lines_ + capture_.rejected_count();
@@ -195,6 +246,7 @@ class Stream {
   Terminal terminal_;
   std::mutex words_mutex_;
   Feed feed_;
+  Recorder recorder_;
   Capture capture_;
   ShownCapture shown_{capture_};
   std::optional<Server> server_;

@@ -50,7 +50,7 @@ void serve(const ViewCommand& command, Shown& shown) {
   const Feed nothing_changes;
   const Server server({.host = command.host, .port = command.port}, shown, nothing_changes,
                       nullptr);
-  Terminal(command.quiet).say("showing " + command.file.string() + " on " + server.url());
+  Terminal(command.quiet).say(command.file.string() + ": listening on " + server.url());
   while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 

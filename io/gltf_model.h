@@ -37,6 +37,7 @@ class Buffer {
   explicit Buffer(tinygltf::Model& model) : model_(model) { model_.buffers.resize(1); }
 
   /// A view of `size` bytes for the numbers that are put next, and the accessor that reads them.
+  /// `target`: 0 for what is no vertex and no index.
   void begin(std::size_t size, int target, int component_type, int type, std::size_t count) {
     std::vector<unsigned char>& data = model_.buffers[0].data;
     data.resize((data.size() + 3) / 4 * 4);

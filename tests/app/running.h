@@ -59,6 +59,7 @@ class Running {
   [[nodiscard]] std::unique_ptr<httplib::Client> client() const {
     auto client = std::make_unique<httplib::Client>("127.0.0.1", port());
     client->set_keep_alive(true);
+    client->set_tcp_nodelay(true);
     client->set_read_timeout(60);
     return client;
   }

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Writes one glTF file of each kind that can come up, into the current folder, for
 // validate_gltf.mjs.
+#include <fstream>
+#include <string>
 #include <vector>
 
+#include "io/replay.h"
+#include "io/slab_glb.h"
 #include "io/surfaces.h"
+#include "reconstruct/reconstruction.h"
 #include "tests/io/shapes.h"
+#include "tests/reconstruct/stacks.h"
 
 int main() {
   using namespace loft;
@@ -34,6 +40,24 @@ int main() {
   write("fine.glb", {{"", &fine}});
   write("far.glb", {{"", &far}});
   write("leaf.glb", {{"", &leaf}});
+  // A slab, and how a stack came about.
+  Reconstruction live;
+  io::Replay replay(0.001);
+  for (int i = 0; i < 6; ++i) {
+    const double z = i % 4;  // the last two take the place of others
+    const SurfaceChange change =
+        i < 4 ? live.insert({z, {stacks::circle(20, 5 + z)}})
+              : live.replace(z, {z, {stacks::circle(30, 4), stacks::circle(9, 2)}});
+    const Snapshot snapshot = live.snapshot();
+    for (const std::uint32_t id : change.removed) replay.remove(i, std::to_string(id));
+    for (const SlabInfo& slab : change.added)
+      replay.add(i, std::to_string(slab.id), snapshot, snapshot.find(slab.id), "heart", 0);
+  }
+  std::ofstream slab("slab.glb", std::ios::binary);
+  slab << io::slab_glb(live.snapshot(), 1, {.label = "lung", .colour = 1, .origin = {5, 5, 5}});
+  std::ofstream animated("replay.glb", std::ios::binary);
+  replay.write(animated);
+
   options.metres_per_unit = 1e-9;
   write("tiny.glb", {{"", &tiny}});
 }
