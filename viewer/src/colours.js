@@ -57,6 +57,7 @@ export function explain(list, { gradient: bar, ends, labels }) {
     for (const end of ends) add(item, 'span', '', end);
     return;
   }
+  if (labels.length === 1 && labels[0][0] === '') return;  // nothing to tell apart
   for (const [label, colour] of labels) {
     const item = add(list, 'li', '');
     add(item, 'span', 'swatch').style.backgroundColor = `#${colour.getHexString()}`;

@@ -8,6 +8,12 @@ function element(id) {
   return document.getElementById(id);
 }
 
+// Sets what stands behind a term, or hides both.
+function show(id, text) {
+  element(id).textContent = text ?? '';
+  element(id).hidden = element(id).previousElementSibling.hidden = text === undefined;
+}
+
 export function median(values) {
   if (values.length === 0) return undefined;
   const sorted = [...values].sort((a, b) => a - b);
@@ -19,10 +25,11 @@ export class Panel {
   #wasConnected = false;
 
   showCounts({ counts, volume, edits, unit }) {
-    for (const kind of ['slices', 'slabs', 'faces', 'vertices'])
-      element(kind).textContent = count(counts[kind]);
-    element('volume').textContent = `${number(volume)}${unit ? ` ${unit}³` : ''}`;
-    element('edits').textContent = count(edits);
+    const texts = { ...counts, edits };
+    for (const kind of ['slices', 'slabs', 'faces', 'vertices', 'edits'])
+      show(kind, texts[kind] === undefined ? undefined : count(texts[kind]));
+    element('volume').textContent = `${number(volume)} ${unit}³`;
+    show('latency', edits === undefined ? undefined : element('latency').textContent);
   }
 
   // Links to the surface as a file, by extension.
@@ -84,9 +91,11 @@ export class Panel {
                 ['Contour', `${nearest.contour}${label ? ` (${label})` : ''}`],
                 ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)}`]);
     }
-    rows.push(['Place', place.map(number).join(', ')], ['Slab', `${slab.id}${slab.label ? ` (${slab.label})` : ''}`],
-              ['Between', `${exact(slab.low)} and ${exact(slab.high)} ${unit}`],
-              ['Confidence', number(slab.confidence)], ['Edit', count(slab.edit)]);
+    rows.push(['Place', place.map(number).join(', ')]);
+    if (slab.label) rows.push(['Label', slab.label]);
+    if (slab.confidence !== undefined)  // not of a mesh
+      rows.push(['Slab', slab.id], ['Between', `${exact(slab.low)} and ${exact(slab.high)} ${unit}`],
+                ['Confidence', number(slab.confidence)], ['Edit', count(slab.edit)]);
     const list = element('pick');
     list.replaceChildren();
     for (const [term, text] of rows) {

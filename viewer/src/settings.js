@@ -33,6 +33,7 @@ export class Settings extends EventTarget {
   }
 
   toggle(id) {
+    if (element(id).disabled) return;
     element(id).checked = !element(id).checked;
     this.#tell();
   }
@@ -58,7 +59,7 @@ export class Settings extends EventTarget {
     this.#range = range;
     const slider = element('slice');
     slider.max = Math.max(heights.length - 1, 0);
-    slider.disabled = element('slice-on').disabled = heights.length === 0;
+    for (const id of ['contours', 'slice-on', 'slice']) element(id).disabled = heights.length === 0;
     element('cut').disabled = element('cut-on').disabled = element('cut-below').disabled = !this.#range;
     this.#z = this.#isChosen ? this.#nearest(this.#z) : heights[Math.floor(heights.length / 2)];
     slider.value = Math.max(heights.indexOf(this.#z), 0);
