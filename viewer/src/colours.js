@@ -22,11 +22,11 @@ function byLabel(slab) {
 
 function byAge(slabs) {
   let [oldest, newest] = [Infinity, -Infinity];
-  for (const { edit } of slabs) {
+  for (const { edit = 0 } of slabs) {
     oldest = Math.min(oldest, edit);
     newest = Math.max(newest, edit);
   }
-  const share = (edit) => (newest > oldest ? (edit - oldest) / (newest - oldest) : 1);
+  const share = (edit = 0) => (newest > oldest ? (edit - oldest) / (newest - oldest) : 1);
   const ends = slabs.length > 0 ? [`edit ${oldest}`, `edit ${newest}`] : ['oldest', 'newest'];
   return { of: (slab) => onRamp(ages, share(slab.edit)), gradient: gradient(ages), ends };
 }
@@ -35,7 +35,7 @@ function byAge(slabs) {
 export function colouring(mode, slabs) {
   if (mode === 'age') return byAge(slabs);
   if (mode === 'confidence')
-    return { of: (slab) => onRamp(confidences, slab.confidence), gradient: gradient(confidences), ends: ['unsure', 'sure'] };
+    return { of: (slab) => onRamp(confidences, slab.confidence ?? 1), gradient: gradient(confidences), ends: ['unsure', 'sure'] };
   const labels = new Map();
   for (const slab of slabs) if (slab.colour) labels.set(slab.label, byLabel(slab));
   return { of: byLabel, labels: [...labels].sort(([a], [b]) => (a < b ? -1 : 1)) };

@@ -50,6 +50,7 @@ export class Events extends EventTarget {
     if (state === this.#state) return;
     this.#state = state;
     this.dispatchEvent(new CustomEvent(state));
+    if (state === 'connected') this.#look();
   }
 
   async #look() {

@@ -2,6 +2,7 @@
 // The keyboard. Arrows belong to the control that has the focus, letters to the page.
 
 const turn = Math.PI / 24;
+const zooms = { '+': 'dollyIn', '=': 'dollyIn', '-': 'dollyOut' };
 
 function isTyping(target) {
   return target instanceof HTMLInputElement || target instanceof HTMLSelectElement;
@@ -11,6 +12,7 @@ function move(controls, event) {
   const step = 40;
   const ways = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
   const [x, y] = ways[event.key];
+  controls.dispatchEvent({ type: 'start' });
   if (event.shiftKey) {
     controls.pan(x * step, y * step);
   } else {
@@ -25,10 +27,9 @@ export function listenToKeys(stage, actions) {
     if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
     if (event.key.startsWith('Arrow') && !isTyping(event.target)) {
       move(stage.controls, event);
-    } else if (event.key === '+' || event.key === '=') {
-      stage.controls.dollyIn(1.15);
-    } else if (event.key === '-') {
-      stage.controls.dollyOut(1.15);
+    } else if (event.key in zooms) {
+      stage.controls.dispatchEvent({ type: 'start' });
+      stage.controls[zooms[event.key]](1.15);
     } else {
       const action = actions[event.key.toLowerCase()];
       if (!action) return;

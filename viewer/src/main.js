@@ -31,13 +31,13 @@ function listen() {
   events.addEventListener('status', ({ detail }) => panel.showStatus(detail));
   events.addEventListener('reset', ({ detail }) => {
     view.reset(detail);
-    settings.setSlices(view.heights, view.unit);
+    settings.setHeights(view.heights, view.range, view.unit);
     view.apply(settings);
   });
   events.addEventListener('change', ({ detail }) => {
     panel.addLatency(detail.latency_ms);
     if (!view.change(detail)) return events.restart();  // something was missed
-    settings.setSlices(view.heights, view.unit);
+    settings.setHeights(view.heights, view.range, view.unit);
     view.apply(settings);
   });
 }

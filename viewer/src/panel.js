@@ -25,6 +25,19 @@ export class Panel {
     element('edits').textContent = count(edits);
   }
 
+  // Links to the surface as a file, by extension.
+  showDownloads(extensions) {
+    const links = extensions.map((extension) => {
+      const link = document.createElement('a');
+      link.href = `surface${extension}`;
+      link.download = `surface${extension}`;
+      link.textContent = extension.slice(1).toUpperCase();
+      link.setAttribute('aria-label', `Download the surface as ${link.textContent}`);
+      return link;
+    });
+    element('downloads').replaceChildren(...links);
+  }
+
   showGrid(step, unit) {
     element('grid').textContent = step === undefined ? '–' : `${number(step)} ${unit}`;
   }
@@ -36,8 +49,8 @@ export class Panel {
   }
 
   // The server's own figure, as long as there is none from here.
-  showStatus({ latency_ms: latency }) {
-    if (this.#latencies.length === 0 && latency?.last !== undefined) this.#showLatency(latency.median);
+  showStatus({ latency_ms: latency, edits }) {
+    if (this.#latencies.length === 0 && edits > 0) this.#showLatency(latency?.median);
   }
 
   showConnected() {
@@ -61,8 +74,8 @@ export class Panel {
     element('empty').hidden = !isEmpty;
   }
 
-  // `nearest` as nearestPoint() gives it.
-  showPick(slab, nearest, unit) {
+  // `place` in the input's coordinates, `nearest` as nearestPoint() gives it.
+  showPick(slab, place, nearest, unit) {
     const rows = [];
     if (nearest) {
       const [x, y] = nearest.slice.contours[nearest.contour][nearest.point];
@@ -71,9 +84,9 @@ export class Panel {
                 ['Contour', `${nearest.contour}${label ? ` (${label})` : ''}`],
                 ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)}`]);
     }
-    rows.push(['Slab', `${slab.id}${slab.label ? ` (${slab.label})` : ''}`],
+    rows.push(['Place', place.map(number).join(', ')], ['Slab', `${slab.id}${slab.label ? ` (${slab.label})` : ''}`],
               ['Between', `${exact(slab.low)} and ${exact(slab.high)} ${unit}`],
-              ['Confidence', number(slab.confidence)], ['Made by edit', count(slab.edit)]);
+              ['Confidence', number(slab.confidence)], ['Edit', count(slab.edit)]);
     const list = element('pick');
     list.replaceChildren();
     for (const [term, text] of rows) {

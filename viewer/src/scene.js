@@ -9,7 +9,9 @@ const isStill = matchMedia('(prefers-reduced-motion: reduce)');
 // Inside of the surface, where a cut opens it, the colour is deeper.
 function showInside(shader) {
   const colour = '#include <color_fragment>';
-  const inside = 'if (!gl_FrontFacing) diffuseColor.rgb *= vec3(0.62, 0.52, 0.5);';
+  const inside = `#if NUM_CLIPPING_PLANES > 0
+    if (!gl_FrontFacing) diffuseColor.rgb *= vec3(0.62, 0.52, 0.5);
+  #endif`;
   shader.fragmentShader = shader.fragmentShader.replace(colour, `${colour}\n${inside}`);
 }
 

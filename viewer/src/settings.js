@@ -9,6 +9,7 @@ function element(id) {
 export class Settings extends EventTarget {
   #heights = [];
   #z;
+  #isChosen = false;  // else the middle one is shown
   #range;
   #share = 0.5;  // the cut's height, from the bottom to the top
   #unit = '';
@@ -50,35 +51,36 @@ export class Settings extends EventTarget {
     this.#tell();
   }
 
-  setSlices(heights, unit) {
+  // The heights of the slices, and how far the surface reaches.
+  setHeights(heights, range, unit) {
     this.#heights = heights;
     this.#unit = unit;
-    this.#range = heights.length > 1 ? [heights[0], heights.at(-1)] : undefined;
+    this.#range = range;
     const slider = element('slice');
     slider.max = Math.max(heights.length - 1, 0);
     slider.disabled = element('slice-on').disabled = heights.length === 0;
     element('cut').disabled = element('cut-on').disabled = element('cut-below').disabled = !this.#range;
-    this.#z = this.#nearest(this.#z ?? heights[Math.floor(heights.length / 2)]);
+    this.#z = this.#isChosen ? this.#nearest(this.#z) : heights[Math.floor(heights.length / 2)];
     slider.value = Math.max(heights.indexOf(this.#z), 0);
     this.#show();
   }
 
   // Makes a slice the chosen one.
   choose(z) {
+    this.#isChosen = true;
     this.#z = this.#nearest(z);
     element('slice').value = this.#heights.indexOf(this.#z);
     this.#show();
   }
 
   #nearest(z) {
-    if (z === undefined) return undefined;
     let best = this.#heights[0];
     for (const height of this.#heights) if (Math.abs(height - z) < Math.abs(best - z)) best = height;
     return best;
   }
 
   #choose() {
-    this.#z = this.#heights[Number(element('slice').value)];
+    this.choose(this.#heights[Number(element('slice').value)]);
     element('slice-on').checked = true;
     this.#tell();
   }
@@ -100,8 +102,8 @@ export class Settings extends EventTarget {
   }
 
   #show() {
-    const slice = this.#z === undefined ? '–' : `z ${exact(this.#z)} ${this.#unit}`;
-    const cut = this.#range ? `z ${number(this.#cutHeight())} ${this.#unit}` : '–';
+    const slice = this.#z === undefined ? '–' : `${exact(this.#z)} ${this.#unit}`;
+    const cut = this.#range ? `${number(this.#cutHeight())} ${this.#unit}` : '–';
     for (const [id, text] of [['slice', slice], ['cut', cut]]) {
       element(`${id}-height`).textContent = text;
       element(id).setAttribute('aria-valuetext', text);

@@ -27,6 +27,16 @@ export class Slabs {
 
   get pending() { return this.#pending.size; }
   get size() { return this.#live.size; }
+  // The lowest and the highest height; undefined without slabs.
+  get range() {
+    if (this.#live.size === 0) return undefined;
+    let [low, high] = [Infinity, -Infinity];
+    for (const slab of this.#live.values()) {
+      low = Math.min(low, slab.low);
+      high = Math.max(high, slab.high);
+    }
+    return [low, high];
+  }
   has(id) { return this.#live.has(id); }
   isPending(slab) { return this.#pending.has(slab); }
   *shown() {

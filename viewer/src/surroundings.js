@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The box around the surface with its lengths in the input's unit, and a grid under it.
-import { Box3Helper, BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Vector3 } from 'three';
+import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Vector3 } from 'three';
 import { number } from './text.js';
 
 // 1, 2 or 5 times a power of ten, so that about ten of them make `length`.
@@ -9,36 +9,62 @@ export function stepFor(length) {
   return power * [1, 2, 5, 10].find((factor) => factor * power >= length / 10);
 }
 
+function replace(lines, numbers) {
+  lines.geometry.dispose();
+  lines.geometry = new BufferGeometry();
+  lines.geometry.setAttribute('position', new Float32BufferAttribute(numbers, 3));
+}
+
+// Corner i of a box: bits 0, 1, 2 say whether x, y, z are the larger ones.
+function corner({ min, max }, i) {
+  return [i & 1 ? max.x : min.x, i & 2 ? max.y : min.y, i & 4 ? max.z : min.z];
+}
+
+// The corner next to a place outside.
+function nearestCorner({ min, max }, place) {
+  return ['x', 'y', 'z'].reduce((bits, axis, i) => bits | (place[axis] > (min[axis] + max[axis]) / 2) << i, 0);
+}
+
+// The edges of a box but for those at a corner.
+function edgesWithout(box, left) {
+  const numbers = [];
+  for (let i = 0; i < 8; ++i) {
+    for (const bit of [1, 2, 4]) {
+      if (i & bit || i === left || (i | bit) === left) continue;
+      numbers.push(...corner(box, i), ...corner(box, i | bit));
+    }
+  }
+  return numbers;
+}
+
 export class Surroundings {
-  #scene;
   #grid;
-  #helper;
+  #edges;
+  #corner = -1;  // of the box, next to the eye: its edges are left out
   #labels;
   #box;
 
   constructor(scene, labels) {
     this.material = new LineBasicMaterial({ transparent: true, opacity: 0.5 });
     this.#grid = new LineSegments(new BufferGeometry(), this.material);
-    this.#grid.frustumCulled = false;
+    this.#edges = new LineSegments(new BufferGeometry(), this.material);
+    for (const lines of [this.#grid, this.#edges]) {
+      lines.frustumCulled = false;
+      scene.add(lines);
+    }
     this.#labels = labels;
-    scene.add(this.#grid);
-    this.#scene = scene;
   }
 
   set colour(colour) {
     this.material.color.set(colour);
-    this.#helper?.material.color.set(colour);
   }
 
   // Returns the step of the grid, in the input's unit.
   surround(box, frame, unit) {
     this.#box = box;
-    this.#helper?.removeFromParent();
+    this.#corner = -1;
+    this.#grid.visible = this.#edges.visible = !box.isEmpty();
     if (box.isEmpty()) return undefined;
-    this.#helper = new Box3Helper(box, this.material.color);
-    this.#helper.material.transparent = true;
-    this.#helper.material.opacity = 0.7;
-    this.#scene.add(this.#helper);
     const size = box.getSize(new Vector3());
     const texts = [`x ${number(frame.length(size.x))}`, `z ${number(frame.length(size.y))}`,
                    `y ${number(frame.length(size.z))}`];
@@ -59,20 +85,21 @@ export class Surroundings {
       numbers.push(i * width, y, from[1] * width, i * width, y, to[1] * width);
     for (let k = from[1]; k <= to[1]; ++k)
       numbers.push(from[0] * width, y, k * width, to[0] * width, y, k * width);
-    this.#grid.geometry.dispose();
-    this.#grid.geometry = new BufferGeometry();
-    this.#grid.geometry.setAttribute('position', new Float32BufferAttribute(numbers, 3));
+    replace(this.#grid, numbers);
     return step;
   }
 
-  // Puts the lengths beside the edges that are nearest to the eye at the outline of the box.
-  placeLabels(camera, canvas) {
+  // Draws what lies behind the surface as the eye has it, and puts the lengths beside the edges of the
+  // box that are near its outline.
+  lookFrom(camera, canvas) {
     const isShown = this.#box !== undefined && !this.#box.isEmpty();
     for (const label of this.#labels) label.hidden = !isShown;
     if (!isShown) return;
+    const near = nearestCorner(this.#box, camera.position);
+    if (near !== this.#corner) replace(this.#edges, edgesWithout(this.#box, near));
+    this.#corner = near;
     const { min, max } = this.#box;
-    const nearX = camera.position.x > (min.x + max.x) / 2 ? max.x : min.x;
-    const nearZ = camera.position.z > (min.z + max.z) / 2 ? max.z : min.z;
+    const [nearX, , nearZ] = corner(this.#box, near);
     const farX = nearX === max.x ? min.x : max.x;
     const places = [new Vector3((min.x + max.x) / 2, min.y, nearZ),
                     new Vector3(farX, (min.y + max.y) / 2, nearZ),

@@ -53,6 +53,8 @@ export class View {
 
   get heights() { return this.#contours.heights; }
   get unit() { return this.#unit; }
+  // From the lowest to the highest height.
+  get range() { return this.#slabs.range; }
 
   setColours({ background, grid, lines, accent }) {
     this.stage.background = background;
@@ -65,10 +67,12 @@ export class View {
   // All that the server has.
   reset(state) {
     this.#unit = nameOf(state.unit);
+    if (this.#slots.size === 0 || this.#metresPerUnit !== state.metres_per_unit) this.#frame = undefined;
     this.#metresPerUnit = state.metres_per_unit;
     this.#contours.reset(state.slices);
     this.#lines.clear();
     this.#fetch(this.#slabs.reset(state.slabs, performance.now()));
+    this.#panel.showDownloads(state.downloads ?? ['.glb', '.ply']);
     this.#tell(state);
   }
 
@@ -108,8 +112,9 @@ export class View {
     this.forgetPick();
     if (!slab) return undefined;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
-    const nearest = nearestPoint(slices.filter(Boolean), this.#frame.toInput(hit.point), slab.label);
-    this.#panel.showPick(slab, nearest, this.unit);
+    const place = this.#frame.toInput(hit.point);
+    const nearest = nearestPoint(slices.filter(Boolean), place, slab.label);
+    this.#panel.showPick(slab, place, nearest, this.unit);
     this.#mark(nearest);
     return nearest;
   }
@@ -168,7 +173,7 @@ export class View {
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
-    this.#surroundings.placeLabels(this.stage.camera, this.stage.canvas);
+    this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
   }
 
   #refresh() {
@@ -216,7 +221,7 @@ export class View {
 
   async #applySlice(z) {
     const slice = z === undefined ? undefined : await this.#contours.ask(z);
-    if (z !== this.#settings.slice) return;  // another one has been chosen meanwhile
+    if (!this.#frame || z !== this.#settings.slice) return;  // another one has been chosen meanwhile
     this.#chosen.showSlice(slice, this.#frame);
     this.stage.invalidate();
   }
