@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Installs the Debian packages that loft needs, if any is missing; does nothing otherwise.
 #   sh setup.sh          what the libraries, the program and most samples need
-#   sh setup.sh npm      that, and npm, which fetches the world map of samples/triangulate.sh
+#   sh setup.sh npm      that, and npm, for the viewer of loft stream --view and loft view, and for
+#                        the world map of samples/triangulate.sh
 #   sh setup.sh tests    that, and what the tests need
 #   sh setup.sh fuzz     that, and what fuzzing needs
 #   sh setup.sh bench    what the libraries and the benchmarks need
@@ -19,7 +20,7 @@ if [ "$what" = bench ]; then
   packages="$packages libbenchmark-dev"
 fi
 if [ "$what" = tests ]; then
-  packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16"
+  packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16 chromium"
 fi
 # Node.js often comes from elsewhere than Debian, npm with it.
 if [ -n "${1:-}" ] && ! command -v npm > /dev/null; then

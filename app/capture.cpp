@@ -56,35 +56,50 @@ class Capture::NetChange {
  public:
   void add(std::size_t part, const std::string& label, const SurfaceChange& change) {
     for (const std::uint32_t id : change.removed)
-      if (added_.erase({part, id}) == 0) removed_.push_back(name(part, id));
+      if (added_.erase({part, id}) == 0) removed_.emplace_back(part, id);
     for (const SlabInfo& slab : change.added) added_[{part, slab.id}] = {label, slab};
     for (const Defect& repair : change.repairs) repairs_.push_back(describe(repair));
   }
 
   void report(Answer& answer) const {
-    answer.removed = removed_;
+    for (const auto& [part, id] : removed_) answer.removed.push_back(name(part, id));
     for (const auto& [key, slab] : added_) answer.added.push_back(name(key.first, key.second));
     answer.repairs = repairs_;
   }
 
-  [[nodiscard]] Json removed() const { return removed_; }
-  [[nodiscard]] Json added() const {
+  [[nodiscard]] Json removed() const {
+    Json all = Json::array();
+    for (const auto& [part, id] : removed_) all.push_back(name(part, id));
+    return all;
+  }
+  [[nodiscard]] Json added(std::uint64_t edit) const {
     Json all = Json::array();
     for (const auto& [key, slab] : added_)
-      all.push_back(to_json(key.first, slab.first, slab.second));
+      all.push_back(to_json(key.first, slab.first, slab.second, edit));
     return all;
+  }
+
+  /// Slabs that came get the number of the edit.
+  void note(std::uint64_t edit, std::map<SlabKey, std::uint64_t>& births) const {
+    for (const SlabKey& key : removed_) births.erase(key);
+    for (const auto& [key, slab] : added_) births[key] = edit;
   }
 
   static std::string name(std::size_t part, std::uint32_t id) {
     return std::to_string(part) + '-' + std::to_string(id);
   }
-  static Json to_json(std::size_t part, const std::string& label, const SlabInfo& slab) {
-    return {{"id", name(part, slab.id)}, {"low", slab.low}, {"high", slab.high}, {"label", label}};
+  static Json to_json(std::size_t part, const std::string& label, const SlabInfo& slab,
+                      std::uint64_t edit) {
+    return {{"id", name(part, slab.id)},
+            {"low", slab.low},
+            {"high", slab.high},
+            {"label", label},
+            {"edit", edit}};
   }
 
  private:
-  std::map<std::pair<std::size_t, std::uint32_t>, std::pair<std::string, SlabInfo>> added_;
-  std::vector<std::string> removed_;
+  std::map<SlabKey, std::pair<std::string, SlabInfo>> added_;
+  std::vector<SlabKey> removed_;
   std::vector<std::string> repairs_;
 };
 
@@ -104,7 +119,7 @@ Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
       if (applied.answer.outcome != Answer::Outcome::taken)
         throw InputError("edit " + std::to_string(number) +
                          " of the session cannot be applied: " + applied.answer.error);
-      ++edits_;
+      applied.change.note(++edits_, births_);
       if (setup_.observe) setup_.observe(applied.answer, *view_now());
     });
   }
@@ -183,9 +198,10 @@ void Capture::work_off(std::vector<Job> jobs) {
         answer.latency_ms = milliseconds(Clock::now() - jobs[i].begin);
         if (answer.outcome != Answer::Outcome::taken) {
           ++rejected_;
+          all[i].change.note(edits_, births_);
           continue;
         }
-        ++edits_;
+        all[i].change.note(++edits_, births_);
         latencies_.push_back(answer.latency_ms);
         if (latencies_.size() > latency_count) latencies_.pop_front();
         publish(jobs[i].edit, all[i].change, answer.latency_ms);
@@ -196,7 +212,8 @@ void Capture::work_off(std::vector<Job> jobs) {
         Applied& applied = all[i];
         ++rejected_;
         if (applied.answer.outcome != Answer::Outcome::taken) continue;
-        static_cast<void>(apply(applied.back));
+        applied.change.note(edits_, births_);
+        apply(applied.back).change.note(edits_, births_);
         applied.answer = {Answer::Outcome::not_kept, failure};
       }
       // Slabs were made anew on the way back: viewers start again.
@@ -269,7 +286,7 @@ void Capture::publish(const Edit& edit, const NetChange& change, double latency_
   const Json z = Json::array({edit.slice.z});
   const bool is_removal = edit.kind == Edit::Kind::remove;
   const Json event{{"removed", change.removed()},
-                   {"added", change.added()},
+                   {"added", change.added(edits_)},
                    {"slices_removed", is_removal ? z : Json::array()},
                    {"slices_added", is_removal ? Json::array() : z},
                    {"counts", counts()},
@@ -284,7 +301,7 @@ std::pair<std::string, std::uint64_t> Capture::reset_event() const {
   Json slabs = Json::array();
   for (std::size_t i = 0; i < parts_.size(); ++i)
     for (const SlabInfo& slab : parts_[i].surface->slabs())
-      slabs.push_back(NetChange::to_json(i, parts_[i].label, slab));
+      slabs.push_back(NetChange::to_json(i, parts_[i].label, slab, born({i, slab.id})));
   Json slices = Json::array();
   for (const auto& [z, slice] : stack_.slices()) slices.push_back(z);
   const Json event{{"slabs", std::move(slabs)},
@@ -336,6 +353,17 @@ std::shared_ptr<const CaptureView> Capture::view_now() {
   view->edits = edits_;
   view_ = std::move(view);
   return view_;
+}
+
+std::uint64_t Capture::birth(std::size_t part, std::uint32_t slab) const {
+  const std::lock_guard lock(state_mutex_);
+  return born({part, slab});
+}
+
+/// What is not noted yet comes from the edit that is being applied.
+std::uint64_t Capture::born(const SlabKey& slab) const {
+  const auto found = births_.find(slab);
+  return found == births_.end() ? edits_ + 1 : found->second;
 }
 
 std::optional<Slice> Capture::slice(double z) const {

@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "app/feed.h"
@@ -82,6 +83,8 @@ class Capture {
 
   /// The state after some edit; the same object as long as nothing changes.
   [[nodiscard]] std::shared_ptr<const CaptureView> view();
+  /// The number of the edit that made a slab.
+  [[nodiscard]] std::uint64_t birth(std::size_t part, std::uint32_t slab) const;
   /// The slice at a height as it came in, or null.
   [[nodiscard]] std::optional<Slice> slice(double z) const;
   [[nodiscard]] std::vector<double> heights() const;
@@ -103,6 +106,7 @@ class Capture {
     Done done;
     Clock::time_point begin;
   };
+  using SlabKey = std::pair<std::size_t, std::uint32_t>;  // part, id
   struct Applied;
   class NetChange;
   struct Part {
@@ -118,6 +122,7 @@ class Capture {
   void apply_to_parts(const io::Edit& edit, NetChange& change);
   void add_parts(const Slice& slice, NetChange& change);
   void publish(const io::Edit& edit, const NetChange& change, double latency_ms);
+  [[nodiscard]] std::uint64_t born(const SlabKey& slab) const;
   [[nodiscard]] Json counts() const;
   [[nodiscard]] double volume() const;
 
@@ -136,6 +141,7 @@ class Capture {
   std::vector<Part> parts_;
   std::shared_ptr<const CaptureView> view_;
   std::optional<Vec3> origin_;
+  std::map<SlabKey, std::uint64_t> births_;  // the edit that made each slab
   std::uint64_t edits_ = 0;
   std::uint64_t rejected_ = 0;
   std::deque<double> latencies_;  // of the last edits

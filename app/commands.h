@@ -115,6 +115,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const CheckCommand& command);
 [[nodiscard]] ExitCode run(const InfoCommand& command);
 [[nodiscard]] ExitCode run(const StreamCommand& command);
+[[nodiscard]] ExitCode run(const ViewCommand& command);
 [[nodiscard]] ExitCode run(const SessionCommand& command);
 
 }  // namespace loft::app

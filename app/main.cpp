@@ -266,6 +266,24 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
   return sub;
 }
 
+/// Adds `loft view`; the command is ready when the line has been parsed.
+CLI::App* add_view(CLI::App& app, ViewCommand& command) {
+  CLI::App* sub = app.add_subcommand("view", "Show a mesh or the session of a stream in a browser");
+  sub->add_option("FILE", command.file,
+                  "Mesh file, " + loft::io::mesh_extensions() + ", or session file")
+      ->required();
+  sub->add_option("--port", command.port, "Port to serve on (default 8337; 0: any that is free)")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535));
+  add_address_options(*sub, command);
+  sub->footer(
+      "Open the address that it prints; Ctrl-C ends it.\n\n"
+      "Examples:\n"
+      "  loft view skull.ply\n"
+      "  loft view capture.session --port 0");
+  return sub;
+}
+
 /// Adds `loft session`; the command is ready when the line has been parsed.
 CLI::App* add_session(CLI::App& app, SessionCommand& command) {
   CLI::App* sub = app.add_subcommand("session", "Look into the session of a stream");
@@ -345,12 +363,14 @@ ExitCode run_program(int argc, char** argv) {
   app.require_subcommand(1);
   ReconstructCommand reconstruct;
   StreamCommand stream;
+  ViewCommand view;
   SessionCommand session;
   TriangulateCommand triangulate;
   CheckCommand check;
   InfoCommand info;
   const CLI::App* reconstruct_app = add_reconstruct(app, reconstruct);
   const CLI::App* stream_app = add_stream(app, stream);
+  const CLI::App* view_app = add_view(app, view);
   const CLI::App* session_app = add_session(app, session);
   const CLI::App* triangulate_app = add_triangulate(app, triangulate);
   const CLI::App* check_app = add_check(app, check);
@@ -362,6 +382,7 @@ ExitCode run_program(int argc, char** argv) {
   }
   if (reconstruct_app->parsed()) return run(reconstruct);
   if (stream_app->parsed()) return run(stream);
+  if (view_app->parsed()) return run(view);
   if (session_app->parsed()) return run(session);
   if (triangulate_app->parsed()) return run(triangulate);
   return check_app->parsed() ? run(check) : run(info);

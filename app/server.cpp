@@ -11,7 +11,6 @@
 #include <list>
 #include <optional>
 #include <random>
-#include <sstream>
 #include <string_view>
 #include <thread>
 #include <utility>
@@ -85,8 +84,8 @@ const char* name(io::Edit::Kind kind) {
 
 class Server::Routes {
  public:
-  Routes(const Setup& setup, Capture& capture, Feed& feed)
-      : setup_(setup), capture_(capture), feed_(feed) {
+  Routes(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
+      : setup_(setup), shown_(shown), feed_(feed), capture_(capture) {
     http_.new_task_queue = [] { return new httplib::ThreadPool(thread_count); };
     http_.set_payload_max_length(setup.most_bytes);
     http_.set_read_timeout(10);
@@ -162,7 +161,7 @@ class Server::Routes {
   }
 
   void add_routes() {
-    if (!setup_.is_read_only)
+    if (capture_ != nullptr)
       http_.Post("/slices",
                  [this](const Request& request, Response& response) { post(request, response); });
     http_.Get("/slices",
@@ -174,7 +173,7 @@ class Server::Routes {
     http_.Get("/events",
               [this](const Request& request, Response& response) { events(request, response); });
     http_.Get("/status", [this](const Request&, Response& response) {
-      Json status = capture_.status();
+      Json status = shown_.status();
       status["viewers"] = viewers_.load();
       answer(response, 200, status);
     });
@@ -227,7 +226,7 @@ class Server::Routes {
   void submit(Line& line) {
     auto promise = std::make_shared<std::promise<Answer>>();
     line.answer = promise->get_future();
-    const auto submission = capture_.submit(
+    const auto submission = capture_->submit(
         line.read.edit, [promise](const Answer& given) { promise->set_value(given); }, patience);
     if (submission == Capture::Submission::taken) return;
     line.status = 503;
@@ -259,10 +258,10 @@ class Server::Routes {
   // --- What there is ---
 
   void slices(const Request& request, Response& response) const {
-    if (!request.has_param("z")) return answer(response, 200, {{"slices", capture_.heights()}});
+    if (!request.has_param("z")) return answer(response, 200, {{"slices", shown_.heights()}});
     const auto z = number(request.get_param_value("z"));
     if (!z) return refuse(response, 400, "z is no number");
-    const auto slice = capture_.slice(*z);
+    const auto slice = shown_.slice(*z);
     if (!slice) return refuse(response, 404, "there is no slice at that height");
     std::string line;
     io::append_slice(line, *slice);
@@ -272,35 +271,23 @@ class Server::Routes {
   void slab(const Request& request, Response& response) {
     const auto part = std::stoul(request.matches[1].str());
     const auto id = static_cast<std::uint32_t>(std::stoul(request.matches[2].str()));
-    const auto view = capture_.view();
-    if (part >= view->parts.size()) return refuse(response, 404, "there is no such slab");
-    const auto& [label, snapshot] = view->parts[part];
-    const std::size_t i = snapshot.find(id);
-    if (i == snapshot.slab_count()) return refuse(response, 404, "this slab is gone, or never was");
-    const auto& setup = capture_.setup();
-    response.set_content(io::slab_glb(snapshot, i,
-                                      {label, part, view->edits, setup.options.cap == Cap::open,
-                                       view->origin, setup.metres_per_unit}),
-                         "model/gltf-binary");
+    const auto glb = shown_.slab(part, id);
+    if (!glb) return refuse(response, 404, "this slab is gone, or never was");
+    response.set_content(*glb, "model/gltf-binary");
   }
 
   void surface(const Request& request, Response& response) {
     const std::string extension = request.matches[1].str();
-    const auto view = capture_.view();
-    const Surfaces surfaces(*view);
-    if (surfaces.parts().empty())
-      return refuse(response, 404, "there is no surface yet; it needs two slices");
-    std::ostringstream out;
     try {
-      io::write(
-          out, extension, surfaces.parts(),
-          {.metres_per_unit = capture_.setup().metres_per_unit, .sources = {}, .settings = {}});
+      const auto content = shown_.surface(extension);
+      if (!content) return refuse(response, 404, "there is no surface yet; it needs two slices");
+      response.set_header("Content-Disposition",
+                          "attachment; filename=\"surface" + extension + '"');
+      response.set_content(*content,
+                           extension == ".glb" ? "model/gltf-binary" : "application/octet-stream");
     } catch (const io::UnknownFormat& error) {
-      return refuse(response, 404, error.what());
+      refuse(response, 404, error.what());
     }
-    response.set_header("Content-Disposition", "attachment; filename=\"surface" + extension + '"');
-    response.set_content(std::move(out).str(),
-                         extension == ".glb" ? "model/gltf-binary" : "application/octet-stream");
   }
 
   // --- Events ---
@@ -359,7 +346,7 @@ class Server::Routes {
   }
 
   bool start(Cursor& cursor, httplib::DataSink& sink) const {
-    const auto [data, next] = capture_.reset_event();
+    const auto [data, next] = shown_.reset_event();
     cursor.next = next;
     return send(sink, "reset", next - 1, data);
   }
@@ -372,8 +359,9 @@ class Server::Routes {
   }
 
   Setup setup_;
-  Capture& capture_;
-  Feed& feed_;
+  Shown& shown_;
+  const Feed& feed_;
+  Capture* capture_;
   httplib::Server http_;
   /// Tells events of this run from those of others.
   std::string token_ = std::to_string(std::random_device()()) + '.';
@@ -382,8 +370,8 @@ class Server::Routes {
   std::atomic<int> viewers_ = 0;
 };
 
-Server::Server(const Setup& setup, Capture& capture, Feed& feed)
-    : routes_(std::make_unique<Routes>(setup, capture, feed)) {
+Server::Server(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
+    : routes_(std::make_unique<Routes>(setup, shown, feed, capture)) {
   const int port = routes_->bind();
   if (port < 0)
     throw Error("cannot listen on " + setup.host + " port " + std::to_string(setup.port) +

@@ -7,10 +7,12 @@
 
 #include "app/capture.h"
 #include "app/feed.h"
+#include "app/shown.h"
 
 namespace loft::app {
 
-/// Serves a capture over HTTP: edits in, surfaces out, and what viewers need.
+/// Serves a surface over HTTP: what viewers need, surfaces out, and edits in where there is a
+/// capture.
 ///
 ///     POST /slices            one or many edits, a line each (io/edit.h): answered once they are
 ///     in
@@ -20,7 +22,8 @@ namespace loft::app {
 ///                             is no edit, 413 too large, 422 an edit was rejected, 503 too many
 ///                             wait (Retry-After), 507 the session could not be written: none was
 ///                             kept
-///     GET /surface.glb        the surface as it is; also .gltf .ply .stl .obj .off
+///     GET /surface.glb        the surface as it is; also .gltf .ply .stl .obj .off; of a file that
+///                             is only shown, in its own format
 ///     GET /slabs/{id}.glb     a slab (io/slab_glb.h); 404 when it is gone
 ///     GET /slices             all heights; ?z=1.25 the slice at that height, as a line
 ///     GET /events             server-sent events: `reset` with all that there is, then `change`
@@ -37,11 +40,11 @@ class Server {
     std::string host = "127.0.0.1";
     int port = 0;                                     ///< 0: any that is free
     std::size_t most_bytes = std::size_t{16} << 20U;  ///< of a body
-    bool is_read_only = false;
   };
 
   /// Binds and serves, in threads of its own. Throws Error where the address cannot be bound.
-  Server(const Setup& setup, Capture& capture, Feed& feed);
+  /// `capture` takes edits; null: there is nothing to edit.
+  Server(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture);
   /// Lets requests end that have begun.
   ~Server();
   Server(const Server&) = delete;

@@ -19,6 +19,7 @@
 #include "app/saver.h"
 #include "app/server.h"
 #include "app/settings.h"
+#include "app/shown_capture.h"
 #include "app/stopwatch.h"
 #include "app/surfaces.h"
 #include "app/terminal.h"
@@ -135,7 +136,7 @@ class Stream {
     server_.emplace(Server::Setup{.host = command_.host,
                                   .port = command_.port,
                                   .most_bytes = command_.most_megabytes << 20U},
-                    capture_, feed_);
+                    shown_, feed_, &capture_);
     terminal_.say("listening on " + server_->url());
   }
 
@@ -247,6 +248,7 @@ class Stream {
   Feed feed_;
   Recorder recorder_;
   Capture capture_;
+  ShownCapture shown_{capture_};
   std::optional<Server> server_;
   std::uint64_t bad_lines_ = 0;
   std::uint64_t saved_edits_ = 0;

@@ -9,26 +9,27 @@
 
 namespace loft::io {
 
-std::string slab_glb(const Snapshot& snapshot, std::size_t i, const SlabView& view) {
-  const std::size_t first = i - std::min<std::size_t>(i, 1);
-  const Patch patch = snapshot.patch(first, std::min(i + 2, snapshot.slab_count()));
+namespace {
+
+using Extras = tinygltf::Value::Object;
+
+Extras extras(const SlabInfo& info, const SlabView& view) {
+  return {{"label", tinygltf::Value(json_text(view.label))},
+          {"low", tinygltf::Value(info.low)},
+          {"high", tinygltf::Value(info.high)}};
+}
+
+/// One node.
+std::string glb(ShadedMesh shaded, Extras extras, const SlabView& view) {
   tinygltf::Model model = empty_model();
   const Frame frame{view.origin, view.metres_per_unit};
   Buffer buffer(model);
-  ShadedMesh shaded = shade(patch, static_cast<std::uint32_t>(i));
-
   const std::string name = view.label.empty() ? "surface" : json_text(view.label);
   tinygltf::Node node;
   node.name = name;
   const Vec3 translation = frame.translation();
   node.translation.assign(translation.begin(), translation.end());
-  const SlabInfo& info = snapshot.slab(i);
-  node.extras = tinygltf::Value(
-      tinygltf::Value::Object{{"label", tinygltf::Value(json_text(view.label))},
-                              {"low", tinygltf::Value(info.low)},
-                              {"high", tinygltf::Value(info.high)},
-                              {"confidence", tinygltf::Value(snapshot.report(i).confidence)},
-                              {"edit", tinygltf::Value(static_cast<double>(view.edit))}});
+  node.extras = tinygltf::Value(std::move(extras));
   if (!shaded.faces.empty()) {  // nothing is between two empty slices
     tinygltf::Mesh mesh;
     mesh.name = name;
@@ -45,6 +46,21 @@ std::string slab_glb(const Snapshot& snapshot, std::size_t i, const SlabView& vi
   std::ostringstream out;
   write_model(out, model, true);
   return std::move(out).str();
+}
+
+}  // namespace
+
+std::string slab_glb(const Snapshot& snapshot, std::size_t i, const SlabView& view) {
+  const std::size_t first = i - std::min<std::size_t>(i, 1);
+  const Patch patch = snapshot.patch(first, std::min(i + 2, snapshot.slab_count()));
+  Extras said = extras(snapshot.slab(i), view);
+  said["confidence"] = tinygltf::Value(snapshot.report(i).confidence);
+  said["edit"] = tinygltf::Value(static_cast<double>(view.edit));
+  return glb(shade(patch, static_cast<std::uint32_t>(i)), std::move(said), view);
+}
+
+std::string slab_glb(const Patch& patch, const SlabInfo& info, const SlabView& view) {
+  return glb(shade(patch, info.id), extras(info, view), view);
 }
 
 }  // namespace loft::io

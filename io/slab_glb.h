@@ -25,4 +25,8 @@ struct SlabView {
 /// slab and its neighbours.
 [[nodiscard]] std::string slab_glb(const Snapshot& snapshot, std::size_t i, const SlabView& view);
 
+/// The faces of a patch that belong to slab `info.id` (Patch::slabs), in the same way; extras are
+/// label, low and high. Cost: that of the patch.
+[[nodiscard]] std::string slab_glb(const Patch& patch, const SlabInfo& info, const SlabView& view);
+
 }  // namespace loft::io

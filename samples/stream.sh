@@ -9,7 +9,7 @@ set -eu
 cd "$(dirname "$0")/.."
 port=${1:-8337}
 
-sh setup.sh
+sh setup.sh npm
 [ -f build/release/CMakeCache.txt ] && tests= || tests=-DLOFT_TESTS=OFF
 cmake --preset release $tests
 cmake --build --preset release -j "$(nproc)" --target loft edit_by_edit pulsating_vessel

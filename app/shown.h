@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/json.h"
+#include "reconstruct/slice.h"
+
+namespace loft::app {
+
+/// What viewers see: a surface in pieces. For any number of threads.
+class Shown {
+ public:
+  virtual ~Shown() = default;
+
+  /// All that there is, as an event for a viewer that starts, and the number of the event after it:
+  /// slabs (id, low, high, label), slices, counts, volume, unit, metres_per_unit, downloads; edits
+  /// where these change the surface.
+  [[nodiscard]] virtual std::pair<std::string, std::uint64_t> reset_event() const = 0;
+  [[nodiscard]] virtual Json status() const = 0;
+
+  /// A slab as GLB (io/slab_glb.h); none where it is gone, or never was.
+  [[nodiscard]] virtual std::optional<std::string> slab(std::size_t part, std::uint32_t id) = 0;
+  /// The file to download with that extension, `.ply`; none where there is no surface yet. Throws
+  /// io::UnknownFormat.
+  [[nodiscard]] virtual std::optional<std::string> surface(std::string_view extension) = 0;
+
+  /// The slice at a height as it came in, or none.
+  [[nodiscard]] virtual std::optional<Slice> slice(double z) const = 0;
+  [[nodiscard]] virtual std::vector<double> heights() const = 0;
+
+ protected:
+  Shown() = default;
+  Shown(const Shown&) = default;
+  Shown& operator=(const Shown&) = default;
+};
+
+}  // namespace loft::app

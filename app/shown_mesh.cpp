@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: MIT
+#include "app/shown_mesh.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/file.h"
+#include "io/meshes.h"
+#include "io/slab_glb.h"
+#include "io/version.h"
+
+namespace loft::app {
+
+namespace {
+
+/// So many faces are sent at once.
+constexpr std::size_t chunk_size = 65'536;
+
+/// Flat faces across z are taken for the caps of a stack: the edge around them looks sharp.
+FaceKind kind_of(const Corners& corners) {
+  const auto& [a, b, c] = corners;
+  if (a[2] != b[2] || b[2] != c[2]) return FaceKind::sheet;
+  const double turn = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+  return turn > 0 ? FaceKind::top_cap : FaceKind::bottom_cap;
+}
+
+void add(Measures& sum, const Measures& part) {
+  sum.vertices += part.vertices;
+  sum.faces += part.faces;
+  sum.volume += part.volume;
+}
+
+}  // namespace
+
+ShownMesh::ShownMesh(std::filesystem::path file, std::string unit)
+    : file_(std::move(file)),
+      unit_(std::move(unit)),
+      metres_per_unit_(app::metres_per_unit(unit_).value_or(1)) {
+  for (io::LabelledMesh& mesh : io::read_meshes(file_)) {
+    add(sum_, measure(mesh.mesh));
+    parts_.push_back(cut(std::move(mesh)));
+  }
+  const Mesh& first = parts_.front().patch.mesh;
+  origin_ = first.points[first.faces.front()[0]];
+}
+
+ShownMesh::Part ShownMesh::cut(io::LabelledMesh mesh) {
+  Part part{std::move(mesh.label), {std::move(mesh.mesh), {}, {}, {}}, {}};
+  Patch& patch = part.patch;
+  for (std::size_t f = 0; f < patch.mesh.faces.size(); ++f) {
+    const auto& [a, b, c] = patch.mesh.faces[f];
+    const Corners corners{patch.mesh.points[a], patch.mesh.points[b], patch.mesh.points[c]};
+    const auto chunk = static_cast<std::uint32_t>(f / chunk_size);
+    if (chunk == part.chunks.size()) part.chunks.push_back({chunk, corners[0][2], corners[0][2]});
+    for (const Vec3& corner : corners) {
+      part.chunks.back().low = std::min(part.chunks.back().low, corner[2]);
+      part.chunks.back().high = std::max(part.chunks.back().high, corner[2]);
+    }
+    patch.kinds.push_back(kind_of(corners));
+    patch.slabs.push_back(chunk);
+  }
+  return part;
+}
+
+std::pair<std::string, std::uint64_t> ShownMesh::reset_event() const {
+  Json slabs = Json::array();
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    for (const SlabInfo& chunk : parts_[i].chunks)
+      slabs.push_back({{"id", std::to_string(i) + '-' + std::to_string(chunk.id)},
+                       {"low", chunk.low},
+                       {"high", chunk.high},
+                       {"label", parts_[i].label}});
+  const Json event{{"slabs", std::move(slabs)},
+                   {"slices", Json::array()},
+                   {"counts", counts()},
+                   {"volume", sum_.volume},
+                   {"unit", unit_},
+                   {"metres_per_unit", metres_per_unit_},
+                   {"downloads", {io::extension(file_)}}};
+  return {event.dump(-1, ' ', false, Json::error_handler_t::replace), 1};
+}
+
+Json ShownMesh::status() const {
+  Json status = counts();
+  status["volume"] = sum_.volume;
+  status["version"] = io::version();
+  return status;
+}
+
+Json ShownMesh::counts() const { return {{"vertices", sum_.vertices}, {"faces", sum_.faces}}; }
+
+std::optional<std::string> ShownMesh::slab(std::size_t part, std::uint32_t id) {
+  if (part >= parts_.size() || id >= parts_[part].chunks.size()) return {};
+  const auto& [label, patch, chunks] = parts_[part];
+  return io::slab_glb(patch, chunks[id],
+                      {.label = label,
+                       .colour = part,
+                       .is_double_sided = true,
+                       .origin = origin_,
+                       .metres_per_unit = metres_per_unit_});
+}
+
+std::optional<std::string> ShownMesh::surface(std::string_view extension) {
+  if (extension != io::extension(file_))
+    throw io::UnknownFormat("surface" + std::string(extension), io::extension(file_));
+  return io::read_file(file_);
+}
+
+}  // namespace loft::app

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <filesystem>
+
+#include "app/shown.h"
+#include "app/unit.h"
+#include "io/labelled_mesh.h"
+#include "reconstruct/measure.h"
+#include "reconstruct/snapshot.h"
+
+namespace loft::app {
+
+/// The meshes of a file, which do not change, for viewers: in place of slabs there are chunks of
+/// faces, numbered from 0 in each mesh; there are no slices.
+class ShownMesh : public Shown {
+ public:
+  /// Throws as io::read_meshes().
+  ShownMesh(std::filesystem::path file, std::string unit);
+
+  [[nodiscard]] std::pair<std::string, std::uint64_t> reset_event() const override;
+  [[nodiscard]] Json status() const override;
+  [[nodiscard]] std::optional<std::string> slab(std::size_t part, std::uint32_t id) override;
+  /// The file itself.
+  [[nodiscard]] std::optional<std::string> surface(std::string_view extension) override;
+  [[nodiscard]] std::optional<Slice> slice(double) const override { return {}; }
+  [[nodiscard]] std::vector<double> heights() const override { return {}; }
+
+ private:
+  struct Part {
+    std::string label;
+    Patch patch;                   // its slabs are the chunks
+    std::vector<SlabInfo> chunks;  // with their lowest and highest place
+  };
+  [[nodiscard]] static Part cut(io::LabelledMesh mesh);
+  [[nodiscard]] Json counts() const;
+
+  std::filesystem::path file_;
+  std::string unit_;
+  double metres_per_unit_;
+  std::vector<Part> parts_;
+  Measures sum_;  // of all parts
+  Vec3 origin_{};
+};
+
+}  // namespace loft::app

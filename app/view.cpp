@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+#include <chrono>
+#include <memory>
+#include <thread>
+
+#include "app/capture.h"
+#include "app/commands.h"
+#include "app/feed.h"
+#include "app/interrupt.h"
+#include "app/server.h"
+#include "app/settings.h"
+#include "app/shown_capture.h"
+#include "app/shown_mesh.h"
+#include "app/terminal.h"
+#include "app/unit.h"
+#include "io/meshes.h"
+#include "io/session.h"
+
+namespace loft::app {
+
+namespace {
+
+/// The surface of a session, as it is now.
+class SessionView {
+ public:
+  explicit SessionView(const ViewCommand& command)
+      : capture_(setup_of(command), io::Session(command.file, io::Session::Access::read), feed_) {}
+
+  [[nodiscard]] Shown& shown() { return shown_; }
+
+ private:
+  /// As it was begun.
+  static Capture::Setup setup_of(const ViewCommand& command) {
+    StreamCommand begun;
+    begun.unit = command.unit;
+    take_over(io::Session(command.file, io::Session::Access::read).settings(), begun);
+    Capture::Setup setup;
+    setup.options = begun.options;
+    setup.unit = begun.unit;
+    setup.metres_per_unit = metres_per_unit(begun.unit).value_or(0.001);
+    return setup;
+  }
+
+  Feed feed_;
+  Capture capture_;
+  ShownCapture shown_{capture_};
+};
+
+void serve(const ViewCommand& command, Shown& shown) {
+  const Feed nothing_changes;
+  const Server server({.host = command.host, .port = command.port}, shown, nothing_changes,
+                      nullptr);
+  Terminal(command.quiet).say(command.file.string() + ": listening on " + server.url());
+  while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+}  // namespace
+
+ExitCode run(const ViewCommand& command) {
+  catch_interrupts();
+  if (io::is_mesh_file(command.file)) {
+    ShownMesh mesh(command.file, command.unit);
+    serve(command, mesh);
+  } else {
+    SessionView session(command);
+    serve(command, session.shown());
+  }
+  return ExitCode::ok;
+}
+
+}  // namespace loft::app

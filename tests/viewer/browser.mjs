@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: MIT
+// A page in Debian's Chromium, and what can be seen on it.
+import { chromium } from 'playwright-core';
+
+const patience = 60_000;  // ms; for slow machines: nothing waits that long where all is well
+
+export async function startBrowser() {
+  return chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
+    args: ['--no-sandbox', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+}
+
+export class Viewer {
+  static async open(browser, url, options = {}) {
+    const viewer = new Viewer();
+    viewer.complaints = [];
+    viewer.foreign = [];
+    viewer.context = await browser.newContext({ viewport: { width: 900, height: 640 }, ...options });
+    viewer.context.setDefaultTimeout(patience);
+    viewer.page = await viewer.context.newPage();
+    viewer.page.on('pageerror', (error) => viewer.complaints.push(String(error)));
+    viewer.page.on('console', (message) => {
+      // A slab may be gone before it could be fetched: the next event says so.
+      const isGone = message.location().url.includes('/slabs/') && message.text().includes('404');
+      if (message.type() === 'error' && !isGone) viewer.complaints.push(message.text());
+    });
+    viewer.page.on('request', (request) => {
+      const address = request.url();
+      if (!address.startsWith(url) && !address.startsWith('data:')) viewer.foreign.push(address);
+    });
+    await viewer.page.goto(url);
+    await viewer.page.evaluate(() => { globalThis.isTheSamePage = true; });
+    return viewer;
+  }
+
+  close() { return this.context.close(); }
+
+  text(id) { return this.page.locator(`#${id}`).innerText(); }
+  // The number that an element shows.
+  async number(id) { return Number.parseFloat((await this.text(id)).replaceAll(',', '')); }
+
+  // Waits until an element shows a text.
+  async waitForText(id, text) {
+    await this.page.waitForFunction(
+      ([name, wanted]) => document.getElementById(name).textContent.trim() === wanted, [id, text]);
+  }
+
+  // Waits until there are so many slabs, and all of them are in the picture.
+  async waitForSlabs(count) {
+    await this.waitForText('slabs', String(count));
+    await this.settle();
+  }
+
+  async settle() {
+    await this.page.waitForSelector('#view[aria-busy="false"]');
+    await this.page.evaluate(() => new Promise((resolve) => {
+      requestAnimationFrame(() => requestAnimationFrame(resolve));
+    }));
+  }
+
+  isTheSamePage() { return this.page.evaluate(() => globalThis.isTheSamePage === true); }
+
+  // The canvas as it is seen: width, height and RGBA. Decoded by a page of its own, which no policy
+  // hinders.
+  async picture() {
+    this.decoder ??= await this.context.newPage();
+    const png = await this.page.locator('#canvas').screenshot();
+    const { width, height, rgba } = await this.decoder.evaluate(async (source) => {
+      const image = new Image();
+      image.src = source;
+      await image.decode();
+      const canvas = new OffscreenCanvas(image.width, image.height);
+      const context = canvas.getContext('2d');
+      context.drawImage(image, 0, 0);
+      const { data } = context.getImageData(0, 0, image.width, image.height);
+      const reader = new FileReader();
+      reader.readAsDataURL(new Blob([data]));
+      await new Promise((resolve) => { reader.onload = resolve; });
+      return { width: image.width, height: image.height, rgba: reader.result.split(',')[1] };
+    }, `data:image/png;base64,${png.toString('base64')}`);
+    return { width, height, pixels: Buffer.from(rgba, 'base64') };
+  }
+}
+
+export function pixel({ width, pixels }, x, y) {
+  return [...pixels.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)];
+}
+
+export function brightness(colour) {
+  return colour.reduce((sum, value) => sum + value, 0) / 3;
+}
+
+// How many pixels of two pictures differ by more than a shade.
+export function difference(a, b) {
+  let count = 0;
+  for (let i = 0; i < a.pixels.length; i += 4) {
+    const isOther = [0, 1, 2].some((k) => Math.abs(a.pixels[i + k] - b.pixels[i + k]) > 12);
+    if (isOther) ++count;
+  }
+  return count;
+}

@@ -1,0 +1,13 @@
+#!/bin/sh
+# SPDX-License-Identifier: MIT
+# Tests the viewer in Debian's Chromium. Installs what is missing first; LOFT names another program
+# than that of build/release.
+set -eu
+cd "$(dirname "$0")"
+
+[ -x "${CHROMIUM:-/usr/bin/chromium}" ] || sh ../../setup.sh tests
+if [ ! node_modules/.package-lock.json -nt package-lock.json ]; then
+  npm ci --no-audit --no-fund
+fi
+export LOFT="${LOFT:-$PWD/../../build/release/app/loft}"
+exec node --test viewer_test.mjs

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: MIT
+// The viewer in a real browser. LOFT names the program; see run.sh.
+import assert from 'node:assert/strict';
+import { mkdtemp, rm } from 'node:fs/promises';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { after, afterEach, before, beforeEach, test } from 'node:test';
+import { Viewer, brightness, difference, pixel, startBrowser } from './browser.mjs';
+import { Loft, square } from './loft.mjs';
+
+let browser;
+let folder;
+let loft;
+let viewer;
+
+before(async () => { browser = await startBrowser(); });
+after(() => browser.close());
+beforeEach(async () => {
+  folder = await mkdtemp(join(tmpdir(), 'loft-viewer-'));
+  loft = await stream();
+  viewer = await Viewer.open(browser, loft.url);
+});
+afterEach(async () => {
+  await viewer.close();
+  await loft.end();
+  await rm(folder, { recursive: true });
+});
+
+function stream(port = 0) {
+  return Loft.start('stream', '--no-input', '--session', join(folder, 'session'), '--view', '--port',
+                    String(port));
+}
+
+async function isSurfaceInTheMiddle() {
+  const picture = await viewer.picture();
+  const middle = pixel(picture, picture.width >> 1, picture.height >> 1);
+  const background = pixel(picture, 3, picture.height - 4);
+  return Math.max(...middle.map((value, i) => Math.abs(value - background[i]))) > 20;
+}
+
+test('a posted slice appears without a reload', async () => {
+  await viewer.page.waitForSelector('#empty', { state: 'visible' });
+  await loft.post(square(0, 5));
+  await viewer.waitForText('slices', '1');
+  assert.equal(await isSurfaceInTheMiddle(), false);
+  await loft.post(square(4, 5));
+  await viewer.waitForSlabs(1);
+  assert.equal(await viewer.page.locator('#empty').isVisible(), false);
+  assert.equal(await isSurfaceInTheMiddle(), true);
+  assert.equal(await viewer.number('volume'), 400);
+  await loft.post(square(6, 5), square(8, 5));
+  await viewer.waitForSlabs(3);
+  assert.equal(await viewer.number('volume'), 800);
+  assert.equal(await viewer.isTheSamePage(), true);
+  assert.deepEqual(viewer.complaints, []);
+  assert.deepEqual(viewer.foreign, []);
+});
+
+test('replacing a slice changes the volume and the picture', async () => {
+  await loft.post(square(0, 5), square(4, 5), square(8, 5));
+  await viewer.waitForSlabs(2);
+  const first = await viewer.picture();
+  await loft.post(square(8, 2, 'replace'));
+  await viewer.waitForText('edits', '4');
+  await viewer.settle();
+  assert.ok(Math.abs(await viewer.number('volume') - (400 + 4 / 3 * (100 + 40 + 16))) < 0.1);
+  assert.ok(difference(first, await viewer.picture()) > 500);
+});
+
+test('a lost connection is told, and mends itself', async () => {
+  await loft.post(square(0, 5), square(4, 6), square(8, 5));
+  await viewer.waitForSlabs(2);
+  await loft.end('SIGKILL');
+  await viewer.page.waitForSelector('#banner', { state: 'visible' });
+  assert.equal(await viewer.page.locator('#banner').getAttribute('role'), 'alert');
+  assert.equal(await isSurfaceInTheMiddle(), true);  // what was seen last stays
+  loft = await stream(loft.port);
+  await viewer.page.waitForSelector('#banner', { state: 'hidden' });
+  await viewer.waitForSlabs(2);
+  assert.equal(await isSurfaceInTheMiddle(), true);
+  await loft.post(square(12, 4));
+  await viewer.waitForSlabs(3);
+  assert.equal(await viewer.isTheSamePage(), true);
+});
+
+test('a click shows the contour point under the cursor, exactly', async () => {
+  await loft.post(square(0.125, 5.000000000000001), square(4.3, 5.000000000000001));
+  await viewer.waitForSlabs(1);
+  const { width, height } = await viewer.page.locator('#canvas').boundingBox();
+  await viewer.page.locator('#canvas').click({ position: { x: width / 2, y: height / 2 } });
+  await viewer.page.waitForFunction(() => document.getElementById('pick').textContent.includes('Point'));
+  const words = await viewer.text('pick');
+  assert.match(words, /z (0\.125|4\.3) mm/);
+  assert.match(words, /-?5\.000000000000001, -?5\.000000000000001/);
+  assert.match(words, /box/);
+});
+
+test('contours, slices and the cut can be shown by keys', async () => {
+  await loft.post(square(0, 5), square(2, 5), square(4, 5));
+  await viewer.waitForSlabs(2);
+  const pictures = [await viewer.picture()];
+  for (const key of ['c', 's', 'x']) {
+    const asked = key === 'c' ? viewer.page.waitForResponse((response) => response.url().includes('slices?z=')) : null;
+    await viewer.page.locator('#canvas').focus();
+    await viewer.page.keyboard.press(key);
+    await asked;
+    await assertChange(pictures.at(-1), pictures, key);
+  }
+  assert.match(await viewer.text('slice-height'), /^z (0|2|4) mm$/);
+  assert.equal(await viewer.page.locator('#cut-on').isChecked(), true);
+});
+
+// Waits for a picture that differs from one.
+async function assertChange(from, pictures, what) {
+  for (let i = 0; i < 100; ++i) {
+    await viewer.settle();
+    const picture = await viewer.picture();
+    if (difference(from, picture) > 30) return pictures.push(picture);
+  }
+  return assert.fail(`nothing changes by ${what}`);
+}
+
+test('the keyboard turns, zooms, fits and helps', async () => {
+  await loft.post(square(0, 5), square(4, 2));
+  await viewer.waitForSlabs(1);
+  const pictures = [await viewer.picture()];
+  await viewer.page.locator('#canvas').focus();
+  for (const key of ['ArrowLeft', '+']) {
+    await viewer.page.keyboard.press(key);
+    await assertChange(pictures.at(-1), pictures, key);
+  }
+  await viewer.page.keyboard.press('f');
+  await assertChange(pictures.at(-1), pictures, 'f');
+  await viewer.page.keyboard.press('?');
+  await viewer.page.waitForSelector('dialog#help[open]');
+  await viewer.page.keyboard.press('Escape');
+  await viewer.page.waitForSelector('dialog#help', { state: 'hidden' });
+});
+
+test('every control has a name and can be reached by the keyboard', async () => {
+  await loft.post(square(0, 5), square(4, 2));
+  await viewer.waitForSlabs(1);
+  const session = await viewer.context.newCDPSession(viewer.page);
+  const { nodes } = await session.send('Accessibility.getFullAXTree');
+  const roles = new Set(['button', 'checkbox', 'slider', 'combobox', 'link', 'image', 'dialog']);
+  const controls = nodes.filter((node) => !node.ignored && roles.has(node.role?.value));
+  assert.ok(controls.length >= 10, `only ${controls.length} controls`);
+  for (const { role, name } of controls) assert.ok(name?.value, `a ${role.value} without a name`);
+
+  const wanted = await viewer.page.evaluate(() => [...document.querySelectorAll(
+    'button, input, select, a, canvas')].filter((control) => control.checkVisibility() && !control.disabled)
+    .map((control) => control.id || control.getAttribute('href')));
+  const reached = new Set();
+  for (let i = 0; i < 2 * wanted.length; ++i) {
+    await viewer.page.keyboard.press('Tab');
+    reached.add(await viewer.page.evaluate(() => document.activeElement.id || document.activeElement.getAttribute('href')));
+  }
+  assert.deepEqual(wanted.filter((control) => !reached.has(control)), []);
+});
+
+test('dark and light: as the system has it, and by the button', async () => {
+  const corner = async () => brightness(pixel(await viewer.picture(), 3, 3));
+  await viewer.close();
+  viewer = await Viewer.open(browser, loft.url, { colorScheme: 'dark' });
+  assert.ok(await corner() < 80);
+  await viewer.page.locator('#theme').click();
+  await viewer.page.waitForSelector('#theme[aria-pressed="false"]');
+  await viewer.settle();
+  assert.ok(await corner() > 160);
+});
+
+test('a file is shown in the same page', async () => {
+  await loft.post(square(0, 5), square(4, 5));
+  await viewer.close();
+  await loft.end('SIGINT');
+  loft = await Loft.start('view', join(folder, 'session'), '--port', '0');
+  viewer = await Viewer.open(browser, loft.url);
+  await viewer.waitForSlabs(1);
+  assert.equal(await viewer.number('volume'), 400);
+  assert.equal(await isSurfaceInTheMiddle(), true);
+});

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: MIT
+// Bundles the page and writes it as C++: node build.mjs OUT.cpp, where node_modules is.
+import { readFile, writeFile } from 'node:fs/promises';
+import { createRequire } from 'node:module';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+
+const folder = dirname(fileURLToPath(import.meta.url));
+const out = process.argv[2];
+if (!out) throw new Error('usage: node build.mjs OUT.cpp');
+
+const { build } = createRequire(join(process.cwd(), 'package.json'))('esbuild');
+const bundle = await build({
+  absWorkingDir: folder,
+  nodePaths: [join(process.cwd(), 'node_modules')],
+  entryPoints: { viewer: 'src/main.js', style: 'viewer.css' },
+  bundle: true,
+  minify: true,
+  format: 'esm',
+  target: 'es2022',
+  legalComments: 'eof',
+  write: false,
+  outdir: 'dist',
+});
+
+const bundled = (end) => bundle.outputFiles.find((file) => file.path.endsWith(end)).contents;
+const files = [
+  ['/', 'text/html; charset=utf-8', await readFile(join(folder, 'index.html'))],
+  ['/viewer.js', 'text/javascript; charset=utf-8', bundled('.js')],
+  ['/viewer.css', 'text/css; charset=utf-8', bundled('.css')],
+  ['/icon.svg', 'image/svg+xml', await readFile(join(folder, 'icon.svg'))],
+];
+
+// Octal escapes end after three digits: what comes next is never taken for one more.
+function escaped(byte) {
+  const isPlain = byte >= 32 && byte <= 126 && !'"?\\'.includes(String.fromCharCode(byte));
+  return isPlain ? String.fromCharCode(byte) : `\\${byte.toString(8).padStart(3, '0')}`;
+}
+
+function literal(bytes) {
+  const lines = [];
+  for (let i = 0; i < bytes.length; i += 4096)
+    lines.push(`"${Array.from(bytes.subarray(i, i + 4096), escaped).join('')}"`);
+  return lines.join('\n');
+}
+
+const entries = files.map(([path, type, bytes]) =>
+  `Asset{"${path}", "${type}", std::string_view(\n${literal(bytes)},\n${bytes.length})}`);
+
+await writeFile(out, `// Made by viewer/build.mjs.
+#include <array>
+
+#include "app/assets.h"
+
+namespace loft::app {
+
+std::span<const Asset> assets() {
+  static constexpr std::array files{
+${entries.join(',\n')}};
+  return files;
+}
+
+}  // namespace loft::app
+`);

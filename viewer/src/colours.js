@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// The colour of a slab: by its label, by how long ago it was made, by how sure it is.
+import { Color } from 'three';
+
+// Told apart by those who do not see red or green, too.
+const ages = ['#31456b', '#3f7f93', '#7db58d', '#f2dd83'];
+const confidences = ['#b3452c', '#e2a45e', '#d9dcdc', '#3f7ea6'];
+
+function onRamp(colours, share) {
+  const place = Math.min(Math.max(share, 0), 1) * (colours.length - 1);
+  const lower = Math.min(Math.floor(place), colours.length - 2);
+  return new Color(colours[lower]).lerp(new Color(colours[lower + 1]), place - lower);
+}
+
+function gradient(colours) {
+  return `linear-gradient(to right, ${colours.join(', ')})`;
+}
+
+function byLabel(slab) {
+  return new Color(...(slab.colour ?? [0.6, 0.66, 0.72]));
+}
+
+function byAge(slabs) {
+  let [oldest, newest] = [Infinity, -Infinity];
+  for (const { edit = 0 } of slabs) {
+    oldest = Math.min(oldest, edit);
+    newest = Math.max(newest, edit);
+  }
+  const share = (edit = 0) => (newest > oldest ? (edit - oldest) / (newest - oldest) : 1);
+  const ends = slabs.length > 0 ? [`edit ${oldest}`, `edit ${newest}`] : ['oldest', 'newest'];
+  return { of: (slab) => onRamp(ages, share(slab.edit)), gradient: gradient(ages), ends };
+}
+
+// What gives slabs their colour (`of`), and what the legend has to say about it.
+export function colouring(mode, slabs) {
+  if (mode === 'age') return byAge(slabs);
+  if (mode === 'confidence')
+    return { of: (slab) => onRamp(confidences, slab.confidence ?? 1), gradient: gradient(confidences), ends: ['unsure', 'sure'] };
+  const labels = new Map();
+  for (const slab of slabs) if (slab.colour) labels.set(slab.label, byLabel(slab));
+  return { of: byLabel, labels: [...labels].sort(([a], [b]) => (a < b ? -1 : 1)) };
+}
+
+function add(parent, name, className, text = '') {
+  const element = parent.appendChild(document.createElement(name));
+  element.className = className;
+  element.textContent = text;
+  return element;
+}
+
+// Fills `list` with what the colours mean.
+export function explain(list, { gradient: bar, ends, labels }) {
+  list.replaceChildren();
+  if (bar) {
+    const item = add(list, 'li', 'ramp');
+    add(item, 'span', 'bar').style.backgroundImage = bar;
+    for (const end of ends) add(item, 'span', '', end);
+    return;
+  }
+  if (labels.length === 1 && labels[0][0] === '') return;  // nothing to tell apart
+  for (const [label, colour] of labels) {
+    const item = add(list, 'li', '');
+    add(item, 'span', 'swatch').style.backgroundColor = `#${colour.getHexString()}`;
+    item.append(label || 'no label');
+  }
+}

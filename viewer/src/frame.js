@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: MIT
+// Where things are: the input's x, y, z in its unit; glTF's metres, +Y up, about an origin; and the
+// scene, which is glTF's space scaled to a size that a camera copes with.
+import { Vector3 } from 'three';
+
+// As people write it; a unit given as a number of metres has no name.
+export function nameOf(unit) {
+  if (unit === 'um') return 'µm';
+  return Number.isNaN(Number(unit)) ? unit : 'units';
+}
+
+export class Frame {
+  #metres;
+  #origin;
+  #scale;
+
+  // `origin` is a node's translation; `size` a length in metres that becomes 1 to 10 in the scene.
+  constructor(metresPerUnit, origin, size) {
+    this.#metres = metresPerUnit;
+    this.#origin = origin;
+    this.#scale = size > 0 ? 10 ** -Math.floor(Math.log10(size)) : 1;
+  }
+
+  // The positions of a node as the scene has them, changed in place.
+  place(positions, translation) {
+    for (let i = 0; i < positions.length; ++i) {
+      const shift = translation[i % 3] - this.#origin[i % 3];
+      positions[i] = (positions[i] + shift) * this.#scale;
+    }
+    return positions;
+  }
+
+  toScene(x, y, z, target = new Vector3()) {
+    return target.set(this.#coordinate(x, 0), this.#coordinate(z, 1), this.#coordinate(-y, 2));
+  }
+
+  toInput(place) {
+    const metres = place.toArray().map((value, axis) => value / this.#scale + this.#origin[axis]);
+    return [metres[0] / this.#metres, -metres[2] / this.#metres, metres[1] / this.#metres];
+  }
+
+  // A length of the scene in the input's unit.
+  length(length) {
+    return length / this.#scale / this.#metres;
+  }
+
+  #coordinate(value, axis) {
+    return (value * this.#metres - this.#origin[axis]) * this.#scale;
+  }
+}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// The keyboard. Arrows belong to the control that has the focus, letters to the page.
+
+const turn = Math.PI / 24;
+const zooms = { '+': 'dollyIn', '=': 'dollyIn', '-': 'dollyOut' };
+
+function isTyping(target) {
+  return target instanceof HTMLInputElement || target instanceof HTMLSelectElement;
+}
+
+function move(controls, event) {
+  const step = 40;
+  const ways = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
+  const [x, y] = ways[event.key];
+  controls.dispatchEvent({ type: 'start' });
+  if (event.shiftKey) {
+    controls.pan(x * step, y * step);
+  } else {
+    controls.rotateLeft(x * turn);
+    controls.rotateUp(y * turn);
+  }
+}
+
+// `actions`: what to do, by key.
+export function listenToKeys(stage, actions) {
+  addEventListener('keydown', (event) => {
+    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
+    if (event.key.startsWith('Arrow') && !isTyping(event.target)) {
+      move(stage.controls, event);
+    } else if (event.key in zooms) {
+      stage.controls.dispatchEvent({ type: 'start' });
+      stage.controls[zooms[event.key]](1.15);
+    } else {
+      const action = actions[event.key.toLowerCase()];
+      if (!action) return;
+      action();
+    }
+    event.preventDefault();
+    stage.invalidate();
+  });
+}

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+import { Events } from './events.js';
+import { onClick } from './pick.js';
+import { listenToKeys } from './keys.js';
+import { Panel } from './panel.js';
+import { Settings } from './settings.js';
+import { Theme } from './theme.js';
+import { View } from './view.js';
+
+const element = (id) => document.getElementById(id);
+
+const panel = new Panel();
+const theme = new Theme();
+const settings = new Settings();
+const events = new Events();
+const view = new View(element('canvas'), [...document.querySelectorAll('#lengths span')], panel);
+
+function applyTheme() {
+  view.setColours({ background: theme.colour('stage'), grid: theme.colour('grid'),
+                    lines: theme.colour('contour'), accent: theme.colour('accent') });
+  element('theme').setAttribute('aria-pressed', String(theme.isDark));
+}
+
+function help() {
+  element('help').showModal();
+}
+
+function listen() {
+  events.addEventListener('connected', () => panel.showConnected());
+  events.addEventListener('lost', () => panel.showLost());
+  events.addEventListener('status', ({ detail }) => panel.showStatus(detail));
+  events.addEventListener('reset', ({ detail }) => {
+    view.reset(detail);
+    settings.setHeights(view.heights, view.range, view.unit);
+    view.apply(settings);
+  });
+  events.addEventListener('change', ({ detail }) => {
+    panel.addLatency(detail.latency_ms);
+    if (!view.change(detail)) return events.restart();  // something was missed
+    settings.setHeights(view.heights, view.range, view.unit);
+    view.apply(settings);
+  });
+}
+
+async function pick(x, y) {
+  const nearest = await view.pick(x, y);
+  if (nearest) settings.choose(nearest.slice.z);
+  view.apply(settings);
+}
+
+function connectControls() {
+  settings.addEventListener('change', () => view.apply(settings));
+  theme.addEventListener('change', applyTheme);
+  element('fit').addEventListener('click', () => view.fit());
+  element('theme').addEventListener('click', () => theme.toggle());
+  element('help-open').addEventListener('click', help);
+  onClick(element('canvas'), pick);
+  listenToKeys(view.stage, {
+    f: () => view.fit(), c: () => settings.toggle('contours'), s: () => settings.reach('slice'),
+    x: () => settings.reach('cut'), v: () => settings.toggle('cut-below'), l: () => settings.nextColour(),
+    p: () => pick(0, 0), t: () => theme.toggle(), '?': help, h: help,
+    escape: () => view.forgetPick(),
+  });
+}
+
+applyTheme();
+connectControls();
+listen();
+events.start();

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: MIT
+// Which slabs there are and which of them are shown. A slab that is gone stays in the picture until
+// those in its place have arrived; they come in at the same moment, so that nothing flickers.
+
+// For how long a slab that is gone may wait for all that replace it: where a stack changes faster
+// than it can be fetched, some of what is new is better than all of what is old.
+const patience = 400;  // ms
+
+function meet(a, b) {
+  return a.label === b.label && a.low < b.high && b.low < a.high;
+}
+
+export class Slabs {
+  #live = new Map();      // by id
+  #pending = new Set();   // live, not yet here
+  #hidden = new Set();    // live and here, but what they replace is still shown
+  #retired = new Set();   // shown, though they are gone
+  #order = 0;
+  #show;
+  #hide;
+
+  // show(slab) and hide(slab) put what has been loaded into the picture and take it out.
+  constructor(show, hide) {
+    this.#show = show;
+    this.#hide = hide;
+  }
+
+  get pending() { return this.#pending.size; }
+  get size() { return this.#live.size; }
+  // The lowest and the highest height; undefined without slabs.
+  get range() {
+    if (this.#live.size === 0) return undefined;
+    let [low, high] = [Infinity, -Infinity];
+    for (const slab of this.#live.values()) {
+      low = Math.min(low, slab.low);
+      high = Math.max(high, slab.high);
+    }
+    return [low, high];
+  }
+  has(id) { return this.#live.has(id); }
+  isPending(slab) { return this.#pending.has(slab); }
+  *shown() {
+    for (const slab of this.#live.values()) if (slab.isShown) yield slab;
+    yield* this.#retired;
+  }
+
+  // The edit in which `removed` (ids) went and `added` came. Returns what is to be fetched.
+  change(removed, added, now) {
+    for (const id of removed) this.#retire(this.#live.get(id), now);
+    const slabs = added.map((slab) => ({ ...slab, order: ++this.#order, isShown: false }));
+    for (const slab of slabs) {
+      this.#live.set(slab.id, slab);
+      this.#pending.add(slab);
+    }
+    this.settle(now);
+    return slabs;
+  }
+
+  // All slabs are others. What is shown stays until they are there.
+  reset(added, now) {
+    return this.change([...this.#live.keys()], added, now);
+  }
+
+  // The slab has arrived. Not kept where a newer one is in its place already.
+  arrive(slab, now) {
+    if (this.#pending.delete(slab)) {
+      this.#hidden.add(slab);
+    } else if ([...this.shown()].some((other) => other.order > slab.order && meet(other, slab))) {
+      return;
+    } else {
+      this.#put(slab);
+      slab.retiredAt = now;
+      this.#retired.add(slab);
+    }
+    this.settle(now);
+  }
+
+  // Swaps what can be swapped. To be called now and then while anything is pending.
+  settle(now) {
+    for (const old of this.#retired) {
+      const isWaiting = this.#meetsAny(this.#pending, old);
+      const isTooOld = now - old.retiredAt > patience && this.#isOutdone(old);
+      if (!isWaiting || isTooOld) this.#drop(old);
+    }
+    for (const slab of this.#hidden) {
+      if (this.#meetsAny(this.#retired, slab)) continue;
+      this.#hidden.delete(slab);
+      this.#put(slab);
+    }
+  }
+
+  #put(slab) {
+    slab.isShown = true;
+    this.#show(slab);
+  }
+
+  #drop(slab) {
+    this.#retired.delete(slab);
+    slab.isShown = false;
+    this.#hide(slab);
+  }
+
+  #retire(slab, now) {
+    if (!slab) return;
+    this.#live.delete(slab.id);
+    this.#pending.delete(slab);
+    this.#hidden.delete(slab);
+    if (!slab.isShown) return;
+    slab.retiredAt = now;
+    this.#retired.add(slab);
+  }
+
+  #meetsAny(slabs, slab) {
+    for (const other of slabs) if (meet(other, slab)) return true;
+    return false;
+  }
+
+  // Whether something newer is there to be shown in its place.
+  #isOutdone(old) {
+    const isNewer = (slab) => slab.order > old.order && meet(slab, old);
+    return [...this.#hidden].some(isNewer) || [...this.#retired].some(isNewer);
+  }
+}

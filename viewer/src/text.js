@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Numbers as people read them.
+
+const plain = new Intl.NumberFormat('en', { maximumSignificantDigits: 5 });
+const tiny = new Intl.NumberFormat('en', { notation: 'scientific', maximumSignificantDigits: 5 });
+
+// A measured quantity, to five digits.
+export function number(value) {
+  if (!Number.isFinite(value)) return '–';
+  const size = Math.abs(value);
+  return (size !== 0 && size < 1e-4 || size >= 1e9 ? tiny : plain).format(value);
+}
+
+export function count(value) {
+  return Number.isFinite(value) ? value.toLocaleString('en') : '–';
+}
+
+// A coordinate exactly as it came in.
+export function exact(value) {
+  return String(value);
+}

@@ -1,0 +1,246 @@
+// SPDX-License-Identifier: MIT
+// The picture of the surface: what the server says goes in, frames come out.
+import { Box3 } from 'three';
+import { Batch, diagonal } from './batch.js';
+import { colouring, explain } from './colours.js';
+import { Contours } from './contours.js';
+import { Frame, nameOf } from './frame.js';
+import { Highlight } from './highlight.js';
+import { Lines } from './lines.js';
+import { Loader } from './loader.js';
+import { hitAt, nearestPoint } from './pick.js';
+import { parseSlab } from './glb.js';
+import { Slabs } from './slabs.js';
+import { Stage } from './scene.js';
+import { Surroundings } from './surroundings.js';
+
+const settleEvery = 100;  // ms
+
+export class View {
+  #panel;
+  #batch;
+  #slabs;
+  #slots = new Map();  // by slab, if it is shown and not empty
+  #contours;
+  #lines;
+  #surroundings;
+  #chosen;             // the slice
+  #picked;             // contour and point
+  #loader = new Loader();
+  #frame;
+  #unit = '';
+  #metresPerUnit = 0.001;
+  #mode = 'label';
+  #wasMoved = false;   // by the user: then nothing is fitted any more
+  #isStale = false;    // box and colours
+  #settings;
+  #legend = document.getElementById('legend');
+
+  constructor(canvas, labels, panel) {
+    this.#panel = panel;
+    this.stage = new Stage(canvas);
+    this.#batch = new Batch(this.stage.scene, this.stage.material);
+    this.#slabs = new Slabs((slab) => this.#show(slab), (slab) => this.#hide(slab));
+    this.#contours = new Contours(this.#loader, (slice) => this.#draw(slice));
+    this.#lines = new Lines(this.stage.scene);
+    this.#surroundings = new Surroundings(this.stage.scene, labels);
+    this.#chosen = new Highlight(this.stage.scene, 2.5);
+    this.#picked = new Highlight(this.stage.scene, 4);
+    this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
+    this.stage.onFrame(() => this.#prepare());
+    setInterval(() => this.#settle(), settleEvery);
+  }
+
+  get heights() { return this.#contours.heights; }
+  get unit() { return this.#unit; }
+  // From the lowest to the highest height.
+  get range() { return this.#slabs.range; }
+
+  setColours({ background, grid, lines, accent }) {
+    this.stage.background = background;
+    this.#surroundings.colour = grid;
+    this.#lines.material.color.set(lines);
+    this.#chosen.colour = accent;
+    this.#picked.colour = accent;
+  }
+
+  // All that the server has.
+  reset(state) {
+    this.#unit = nameOf(state.unit);
+    if (this.#slots.size === 0 || this.#metresPerUnit !== state.metres_per_unit) this.#frame = undefined;
+    this.#metresPerUnit = state.metres_per_unit;
+    this.#contours.reset(state.slices);
+    this.#lines.clear();
+    this.#fetch(this.#slabs.reset(state.slabs, performance.now()));
+    this.#panel.showDownloads(state.downloads ?? ['.glb', '.ply']);
+    this.#tell(state);
+  }
+
+  // What an edit changed. False where that does not go together with what is known here.
+  change(edit) {
+    if (!edit.removed.every((id) => this.#slabs.has(id))) return false;
+    for (const z of edit.slices_removed) this.#lines.delete(z);
+    for (const z of edit.slices_added) this.#lines.delete(z);
+    this.#contours.change(edit.slices_removed, edit.slices_added);
+    this.#fetch(this.#slabs.change(edit.removed, edit.added, performance.now()));
+    this.#tell(edit);
+    return true;
+  }
+
+  // Shows what the controls ask for.
+  apply(settings) {
+    this.#settings = settings;
+    this.#mode = settings.colour;
+    this.#isStale = true;
+    if (!this.#frame) return;
+    this.#applyCut(settings.cut);
+    this.#applyContours(settings.hasContours);
+    this.#applySlice(settings.slice);
+    this.stage.invalidate();
+  }
+
+  fit() {
+    this.#wasMoved = false;
+    this.stage.fit(this.#box());
+  }
+
+  // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to that
+  // point, if there is any.
+  async pick(x, y) {
+    const hit = hitAt(this.stage, this.#batch.mesh, x, y);
+    const slab = hit && [...this.#slots].find(([, slot]) => slot.instance === hit.batchId)?.[0];
+    this.forgetPick();
+    if (!slab) return undefined;
+    const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
+    const place = this.#frame.toInput(hit.point);
+    const nearest = nearestPoint(slices.filter(Boolean), place, slab.label);
+    this.#panel.showPick(slab, place, nearest, this.unit);
+    this.#mark(nearest);
+    return nearest;
+  }
+
+  forgetPick() {
+    this.#mark(undefined);
+    this.#panel.forgetPick();
+  }
+
+  #fetch(slabs) {
+    for (const slab of slabs) {
+      const isWanted = () => this.#slabs.isPending(slab);
+      this.#loader.fetch(`slabs/${encodeURIComponent(slab.id)}.glb`, isWanted, async (response) => {
+        Object.assign(slab, parseSlab(await response.arrayBuffer()), { id: slab.id });
+        this.#slabs.arrive(slab, performance.now());
+        this.#showPending();
+      });
+    }
+  }
+
+  #settle() {
+    if (this.#slabs.pending > 0) this.#slabs.settle(performance.now());
+  }
+
+  #show(slab) {
+    if (!slab.positions) return;
+    if (!this.#frame) this.#begin(slab);
+    slab.positions = this.#frame.place(slab.positions, slab.translation);
+    const slot = this.#batch.add(slab);
+    this.#slots.set(slab, slot);
+    for (const bulk of ['positions', 'normals', 'indices']) delete slab[bulk];
+    this.#refreshLater();
+  }
+
+  #hide(slab) {
+    const slot = this.#slots.get(slab);
+    if (!slot) return;
+    this.#slots.delete(slab);
+    this.#batch.remove(slot);
+    this.#refreshLater();
+  }
+
+  #begin(slab) {
+    this.#frame = new Frame(this.#metresPerUnit, slab.translation, diagonal(slab.positions));
+    if (this.#settings) this.apply(this.#settings);
+  }
+
+  #refreshLater() {
+    this.#isStale = true;
+    this.stage.invalidate();
+  }
+
+  // Ahead of a frame.
+  #prepare() {
+    if (this.#isStale) this.#refresh();
+    this.#lines.refresh();
+    for (const highlight of [this.#chosen, this.#picked])
+      highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
+    this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
+  }
+
+  #refresh() {
+    this.#isStale = false;
+    const colours = colouring(this.#mode, [...this.#slots.keys()]);
+    for (const [slab, slot] of this.#slots) this.#batch.setColour(slot, colours.of(slab));
+    explain(this.#legend, colours);
+    if (!this.#frame) return;
+    const box = this.#box();
+    this.#panel.showGrid(this.#surroundings.surround(box, this.#frame, this.#unit), this.#unit);
+    if (this.#wasMoved) this.stage.setRange(box);
+    else this.stage.fit(box);
+  }
+
+  #box() {
+    const all = new Box3();
+    for (const slot of this.#slots.values()) all.union(slot.box);
+    return all;
+  }
+
+  #applyCut(cut) {
+    if (cut) {
+      const { y } = this.#frame.toScene(0, 0, cut.z);
+      this.stage.cut.normal.set(0, cut.keepsBelow ? -1 : 1, 0);
+      this.stage.cut.constant = cut.keepsBelow ? y : -y;
+    }
+    this.stage.setCut([this.stage.material, this.#lines.material], cut !== undefined);
+  }
+
+  #applyContours(areShown) {
+    this.#lines.isShown = areShown;
+    if (!areShown) return;
+    for (const z of this.heights) {
+      const slice = this.#contours.get(z);
+      if (!slice) this.#contours.ask(z);
+      else if (!this.#lines.has(z)) this.#draw(slice);
+    }
+  }
+
+  #draw(slice) {
+    if (!this.#frame || !this.#lines.isShown) return;
+    this.#lines.set(slice, this.#frame);
+    this.stage.invalidate();
+  }
+
+  async #applySlice(z) {
+    const slice = z === undefined ? undefined : await this.#contours.ask(z);
+    if (!this.#frame || z !== this.#settings.slice) return;  // another one has been chosen meanwhile
+    this.#chosen.showSlice(slice, this.#frame);
+    this.stage.invalidate();
+  }
+
+  #mark(nearest) {
+    if (!this.#frame) return;
+    const points = nearest?.slice.contours[nearest.contour];
+    this.#picked.showSlice(points && { z: nearest.slice.z, contours: [points] }, this.#frame);
+    const place = points && this.#frame.toScene(...points[nearest.point], nearest.slice.z);
+    this.#picked.showPoint(place, this.stage.camera, this.stage.canvas.clientHeight);
+    this.stage.invalidate();
+  }
+
+  #tell(state) {
+    this.#panel.showCounts({ ...state, unit: this.unit });
+    this.#showPending();
+  }
+
+  #showPending() {
+    this.#panel.showPending(this.#slabs.pending, this.#slabs.size === 0);
+  }
+}
