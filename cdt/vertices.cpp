@@ -130,7 +130,9 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   Location place = locate(point, hint);
   if (place.kind == Location::Kind::vertex) {
     last_ = place.edge;
-    return from(place.edge);
+    const VertexId v = from(place.edge);
+    if (epsilon_ == 0 && uses_[v.index()] == 0) doubt_others_through(v);
+    return v;
   }
   if (place.kind == Location::Kind::nowhere) {
     if (vertex_count() == 1 && distance(this->point(only_), point) <= epsilon_) return only_;
@@ -232,6 +234,16 @@ void Triangulation::doubt_others_on(EdgeId e, Point p) {
   for (const Passage passage : passages(e)) {
     const Segment& s = segment(passage.segment());
     if (orient(point(s.from), point(s.to), p) != 0) doubt(passage.segment(), p);
+  }
+}
+
+/// Notes the segments that go through a crossing, which is now a point as well, without being
+/// there: what ends at that point may cross them hardly apart.
+void Triangulation::doubt_others_through(VertexId v) {
+  gather_segments(v);
+  for (const SegmentId s : around_) {
+    const auto [a, b] = ends_of(s);
+    if (orient(a, b, point(v)) != 0) doubt(s, point(v));
   }
 }
 
