@@ -327,8 +327,9 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
   }
   for (unsigned i = 0; i < 4; ++i) {
     // At the end of a line of vertices the two infinite triangles are neighbours twice.
+    const std::uint32_t beyond = sides[i].bits;
     for (unsigned j = 0; is_flat_ && j < 4; ++j)
-      if (sides[i].bits == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
+      if (beyond == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
     attach(edge(parts[i], 0), sides[i]);
     vertex_edges_[starts[i].index()] = edge(parts[i], 0);
   }
