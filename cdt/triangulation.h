@@ -402,6 +402,7 @@ class Triangulation {
   }
   [[nodiscard]] std::optional<EdgeId> bent_edge_at(TriangleId t, Point point);
   void doubt_others_on(EdgeId e, Point point);
+  void doubt_others_through(VertexId v);
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
   void start(VertexId a, VertexId b);
   void extend(EdgeId end_to_infinity, VertexId v);

@@ -130,7 +130,9 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   Location place = locate(point, hint);
   if (place.kind == Location::Kind::vertex) {
     last_ = place.edge;
-    return from(place.edge);
+    const VertexId v = from(place.edge);
+    if (epsilon_ == 0 && uses_[v.index()] == 0) doubt_others_through(v);
+    return v;
   }
   if (place.kind == Location::Kind::nowhere) {
     if (vertex_count() == 1 && distance(this->point(only_), point) <= epsilon_) return only_;
@@ -235,6 +237,16 @@ void Triangulation::doubt_others_on(EdgeId e, Point p) {
   }
 }
 
+/// Notes the segments that go through a crossing, which is now a point as well, without being
+/// there: what ends at that point may cross them hardly apart.
+void Triangulation::doubt_others_through(VertexId v) {
+  gather_segments(v);
+  for (const SegmentId s : around_) {
+    const auto [a, b] = ends_of(s);
+    if (orient(a, b, point(v)) != 0) doubt(s, point(v));
+  }
+}
+
 /// An edge with an infinite triangle on each side, whose edges to and from infinity are still open.
 /// Returns the edges a -> b and b -> a.
 std::pair<EdgeId, EdgeId> Triangulation::add_flat_edge(VertexId a, VertexId b) {
@@ -315,8 +327,9 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
   }
   for (unsigned i = 0; i < 4; ++i) {
     // At the end of a line of vertices the two infinite triangles are neighbours twice.
+    const std::uint32_t beyond = sides[i].bits;
     for (unsigned j = 0; is_flat_ && j < 4; ++j)
-      if (sides[i].bits == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
+      if (beyond == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
     attach(edge(parts[i], 0), sides[i]);
     vertex_edges_[starts[i].index()] = edge(parts[i], 0);
   }
