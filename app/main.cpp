@@ -228,7 +228,7 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
       ->type_name("OUT.glb");
   sub->add_option("--replay-rate", command.replay_rate, "Edits a second in it (default 20)")
       ->type_name("N")
-      ->check(CLI::Validator(complain_of_length, ""));
+      ->check(CLI::Range(0.001, 1000.0));
   sub->add_option("--session", command.session,
                   "Keep every edit in this file before it is acknowledged; if it is there, go on "
                   "from it")

@@ -352,6 +352,34 @@ TEST(Session, ResumesWithItsSettings) {
   EXPECT_THAT(other.err, HasSubstr("was begun with cap dome, not open"));
 }
 
+TEST(Stream, AReplayShowsASessionAsItWasCaptured) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << stack(5) << "{\"op\": \"remove\", \"z\": 2}\n";
+  ASSERT_EQ(run(folder, "stream --session c.session --replay first.glb").exit_code, 0);
+  std::ofstream(folder / "stdin") << "";
+  ASSERT_EQ(run(folder, "stream --session c.session --replay again.glb").exit_code, 0);
+  EXPECT_EQ(content(folder / "first.glb"), content(folder / "again.glb"));
+  EXPECT_THAT(content(folder / "again.glb"), HasSubstr("\"STEP\""));
+  EXPECT_EQ(run(folder, "stream --replay r.glb --replay-rate 0").exit_code, 2);
+  EXPECT_EQ(run(folder, "stream --replay r.ply").exit_code, 2);
+}
+
+TEST(Stream, AReplayThatFailsDoesNotStopTheCapture) {
+  const Folder folder;
+  std::ofstream edits(folder / "stdin");
+  for (const char* z : {"0", "1e38", "2e38"})
+    edits << R"({"z": )" << z << R"(, "contours": [[[0,0],[1e39,0],[1e39,1e39],[0,1e39]]]})"
+          << '\n';
+  edits.close();
+  const Outcome outcome =
+      run(folder, "stream --unit m --session c.session -o out.ply --replay replay.glb");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("too large for glTF"));
+  EXPECT_THAT(run(folder, "session list c.session").out, HasSubstr("3 edits, 3 slices now"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out.ply"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "replay.glb"));
+}
+
 TEST(Session, CommandsLookInside) {
   const Folder folder;
   std::ofstream(folder / "stdin") << stack(3) << "{\"op\": \"remove\", \"z\": 1}\n";
