@@ -360,7 +360,11 @@ TEST(Stream, AReplayShowsASessionAsItWasCaptured) {
   ASSERT_EQ(run(folder, "stream --session c.session --replay again.glb").exit_code, 0);
   EXPECT_EQ(content(folder / "first.glb"), content(folder / "again.glb"));
   EXPECT_THAT(content(folder / "again.glb"), HasSubstr("\"STEP\""));
-  EXPECT_EQ(run(folder, "stream --replay r.glb --replay-rate 0").exit_code, 2);
+  for (const std::string rate : {"0", "1e-9", "1e9", "nan", "fast"}) {
+    const Outcome outcome = run(folder, "stream --replay r.glb --replay-rate " + rate);
+    EXPECT_EQ(outcome.exit_code, 2) << rate;
+    EXPECT_THAT(outcome.err, HasSubstr("is no rate"));
+  }
   EXPECT_EQ(run(folder, "stream --replay r.ply").exit_code, 2);
 }
 
