@@ -288,7 +288,7 @@ TEST_F(Posting, NoBodyMakesItFall) {
   const std::string good = stack(3, 5);
   for (int i = 0; i < count; ++i) {
     std::string body = good.substr(random() % 40, random() % good.size());
-    for (unsigned k = random() % 6; k > 0 && !body.empty(); --k) {
+    for (auto k = random() % 6; k > 0 && !body.empty(); --k) {
       const std::size_t place = random() % body.size();
       if (random() % 2 == 0) {
         body[place] = static_cast<char>(random());
