@@ -65,6 +65,13 @@ std::string complain_of_length(const std::string& text) {
   return "'" + text + "' is no length; give a number above 0, in the unit of the input";
 }
 
+/// Within what glTF's seconds, which are floats, tell apart.
+std::string complain_of_rate(const std::string& text) {
+  double rate = 0;
+  if (CLI::detail::lexical_cast(text, rate) && rate >= 0.001 && rate <= 1000) return {};
+  return "'" + text + "' is no rate; give a number from 0.001 to 1000, edits a second";
+}
+
 std::string complain_of_distance(const std::string& text) {
   double distance = 0;
   if (CLI::detail::lexical_cast(text, distance) && std::isfinite(distance) && distance >= 0)
@@ -228,7 +235,7 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
       ->type_name("OUT.glb");
   sub->add_option("--replay-rate", command.replay_rate, "Edits a second in it (default 20)")
       ->type_name("N")
-      ->check(CLI::Validator(complain_of_length, ""));
+      ->check(CLI::Validator(complain_of_rate, ""));
   sub->add_option("--session", command.session,
                   "Keep every edit in this file before it is acknowledged; if it is there, go on "
                   "from it")

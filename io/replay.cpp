@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 #include <optional>
 #include <span>
@@ -27,6 +28,17 @@ int add_numbers(Buffer& buffer, std::span<const float> numbers, int type, std::s
   return buffer.last_accessor();
 }
 
+/// No eye tells normals apart that differ by so little; rounding alone may change them.
+constexpr double visible_difference = 1e-3;
+
+bool look_alike(std::span<const Vec3> a, std::span<const Vec3> b) {
+  const auto is_near = [](const Vec3& p, const Vec3& q) {
+    return std::ranges::equal(
+        p, q, [](double x, double y) { return std::abs(x - y) <= visible_difference; });
+  };
+  return std::ranges::equal(a, b, is_near);
+}
+
 }  // namespace
 
 class Replay::Film {
@@ -39,6 +51,11 @@ class Replay::Film {
     const Patch patch = snapshot.patch(first, std::min(i + 2, snapshot.slab_count()));
     ShadedMesh shaded = shade(patch, static_cast<std::uint32_t>(i));
     if (shaded.faces.empty()) return;
+    if (const auto found = shown_.find(key); found != shown_.end()) {
+      if (look_alike(found->second.normals, shaded.normals)) return;
+      remove(time, key);
+    }
+    std::vector<Vec3> normals = shaded.normals;
     if (scenes_.empty()) frame_.centre = shaded.points.front();  // of all nodes
     const std::string name = label.empty() ? "surface" : json_text(label);
     tinygltf::Mesh mesh;
@@ -53,7 +70,7 @@ class Replay::Film {
     const Vec3 translation = frame_.translation();
     node.translation.assign(translation.begin(), translation.end());
     model_.meshes.push_back(std::move(mesh));
-    shown_[key] = scenes_.size();
+    shown_[key] = {scenes_.size(), std::move(normals)};
     scenes_.push_back({static_cast<int>(model_.nodes.size()), time, {}});
     model_.nodes.push_back(std::move(node));
     end_ = std::max(end_, time);
@@ -62,7 +79,7 @@ class Replay::Film {
   void remove(double time, const std::string& key) {
     const auto found = shown_.find(key);
     if (found == shown_.end()) return;
-    scenes_[found->second].goes = time;
+    scenes_[found->second.scene].goes = time;
     shown_.erase(found);
     end_ = std::max(end_, time);
   }
@@ -90,6 +107,10 @@ class Replay::Film {
     int node;
     double comes;
     std::optional<double> goes;
+  };
+  struct Shown {
+    std::size_t scene;
+    std::vector<Vec3> normals;
   };
 
   int material_of(const std::string& name, std::size_t colour) {
@@ -137,7 +158,7 @@ class Replay::Film {
   Buffer buffer_;
   std::map<std::size_t, int> materials_;
   std::vector<Scene> scenes_;
-  std::map<std::string, std::size_t> shown_;  // what is there now
+  std::map<std::string, Shown> shown_;  // what is there now
   double end_ = 0;
 };
 

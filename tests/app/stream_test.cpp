@@ -194,8 +194,8 @@ TEST_F(Posting, SaysWhatIsWrongWithARequest) {
   expect(post(std::string(2 << 20, ' ')), 413, "too large");
   expect(client_->Get("/slices?z=abc"), 400, "no number");
   expect(client_->Get("/slices?z=3"), 404, "no slice");
-  expect(client_->Get("/slabs/0-99.glb"), 404, "no such slab");
-  expect(client_->Get("/slabs/9-9.glb"), 404, "no such slab");
+  expect(client_->Get("/slabs/0-99.glb"), 404, "this slab is gone, or never was");
+  expect(client_->Get("/slabs/9-9.glb"), 404, "this slab is gone, or never was");
   expect(client_->Get("/surface.glb"), 404, "no surface yet");
   expect(client_->Get("/surface.doc"), 404, "");
   expect(client_->Get("/../etc/passwd"), 404, "there is no");
@@ -288,7 +288,7 @@ TEST_F(Posting, NoBodyMakesItFall) {
   const std::string good = stack(3, 5);
   for (int i = 0; i < count; ++i) {
     std::string body = good.substr(random() % 40, random() % good.size());
-    for (unsigned k = random() % 6; k > 0 && !body.empty(); --k) {
+    for (auto k = random() % 6; k > 0 && !body.empty(); --k) {
       const std::size_t place = random() % body.size();
       if (random() % 2 == 0) {
         body[place] = static_cast<char>(random());
@@ -350,6 +350,38 @@ TEST(Session, ResumesWithItsSettings) {
   const Outcome other = run(folder, "stream --session c.session --cap open");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("was begun with cap dome, not open"));
+}
+
+TEST(Stream, AReplayShowsASessionAsItWasCaptured) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << stack(5) << "{\"op\": \"remove\", \"z\": 2}\n";
+  ASSERT_EQ(run(folder, "stream --session c.session --replay first.glb").exit_code, 0);
+  std::ofstream(folder / "stdin") << "";
+  ASSERT_EQ(run(folder, "stream --session c.session --replay again.glb").exit_code, 0);
+  EXPECT_EQ(content(folder / "first.glb"), content(folder / "again.glb"));
+  EXPECT_THAT(content(folder / "again.glb"), HasSubstr("\"STEP\""));
+  for (const std::string rate : {"0", "1e-9", "1e9", "nan", "fast"}) {
+    const Outcome outcome = run(folder, "stream --replay r.glb --replay-rate " + rate);
+    EXPECT_EQ(outcome.exit_code, 2) << rate;
+    EXPECT_THAT(outcome.err, HasSubstr("is no rate"));
+  }
+  EXPECT_EQ(run(folder, "stream --replay r.ply").exit_code, 2);
+}
+
+TEST(Stream, AReplayThatFailsDoesNotStopTheCapture) {
+  const Folder folder;
+  std::ofstream edits(folder / "stdin");
+  for (const char* z : {"0", "1e38", "2e38"})
+    edits << R"({"z": )" << z << R"(, "contours": [[[0,0],[1e39,0],[1e39,1e39],[0,1e39]]]})"
+          << '\n';
+  edits.close();
+  const Outcome outcome =
+      run(folder, "stream --unit m --session c.session -o out.ply --replay replay.glb");
+  EXPECT_EQ(outcome.exit_code, 4) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("too large for glTF"));
+  EXPECT_THAT(run(folder, "session list c.session").out, HasSubstr("3 edits, 3 slices now"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "out.ply"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "replay.glb"));
 }
 
 TEST(Session, CommandsLookInside) {

@@ -79,16 +79,20 @@ TEST_F(SessionFile, KeepsEditsAndSettings) {
 
 TEST_F(SessionFile, HasOneWriter) {
   const Session first = write();
-  EXPECT_THAT([&] { static_cast<void>(write()); }, ThrowsMessage<FileError>(HasSubstr("another process is writing")));
+  EXPECT_THAT([&] { static_cast<void>(write()); },
+              ThrowsMessage<FileError>(HasSubstr("another process is writing")));
 }
 
 TEST_F(SessionFile, SaysWhatIsWrongWithTheFile) {
-  EXPECT_THAT([&] { static_cast<void>(read()); }, ThrowsMessage<FileError>(HasSubstr("No such file")));
+  EXPECT_THAT([&] { static_cast<void>(read()); },
+              ThrowsMessage<FileError>(HasSubstr("No such file")));
   EXPECT_THAT([&] { Session(folder_ / "no" / "x", Session::Access::write); },
               ThrowsMessage<FileError>(HasSubstr("No such file or directory")));
   std::ofstream(path_) << "{\"z\": 1, \"contours\": []}\n" << std::string(5000, ' ');
-  EXPECT_THAT([&] { static_cast<void>(read()); }, ThrowsMessage<FileError>(HasSubstr("no session file")));
-  EXPECT_THAT([&] { static_cast<void>(write()); }, ThrowsMessage<FileError>(HasSubstr("no session file")));
+  EXPECT_THAT([&] { static_cast<void>(read()); },
+              ThrowsMessage<FileError>(HasSubstr("no session file")));
+  EXPECT_THAT([&] { static_cast<void>(write()); },
+              ThrowsMessage<FileError>(HasSubstr("no session file")));
 }
 
 TEST_F(SessionFile, FullDiskKeepsNothingOfWhatFailedAndGoesOnLater) {
