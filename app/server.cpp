@@ -193,15 +193,20 @@ class Server::Routes {
   /// library would take 8 KiB only.
   void post(const Request& request, Response& response, const httplib::ContentReader& read) {
     if (request.is_multipart_form_data()) {
-      response.set_header("Connection", "close");  // what it sends is left unread
+      read([](const auto&) { return true; }, [](const char*, std::size_t) { return true; });
       return refuse(response, 415, "send the edits themselves, a line each, and no form");
     }
     std::string body;
+    bool is_too_large = false;
     const bool is_whole = read([&](const char* bytes, std::size_t size) {
-      body.append(bytes, size);
+      // The library has no limit for bodies that come in chunks. What is too much is read, so that
+      // the next request is found behind it, and forgotten.
+      is_too_large = is_too_large || size > setup_.most_bytes - body.size();
+      if (!is_too_large) body.append(bytes, size);
       return true;
     });
-    if (!is_whole) return explain(request, response);
+    if (is_too_large) response.status = 413;
+    if (!is_whole || is_too_large) return explain(request, response);
     std::list<Line> lines = submit(body);
     if (lines.empty()) return refuse(response, 400, "no edits in the body; a line each");
     int status = 200;
