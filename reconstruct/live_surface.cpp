@@ -171,7 +171,9 @@ class LiveSurface::Splicing {
           [&](std::uint32_t h, std::uint32_t from, std::uint32_t to) {
             note(h, i + 1, indices_[i + 1].find(to, from), false);
           });
-      const auto is_one = [](std::uint32_t count) { return count == 1; };
+      const auto is_one = [this](std::uint32_t count) {
+        return count == 1 || (count == 0 && splice_.is_partial);
+      };
       if (!std::ranges::all_of(lower_counts, is_one)) note_irregular(i);
       if (!std::ranges::all_of(upper_counts, is_one)) note_irregular(i + 1);
     }
@@ -184,6 +186,7 @@ class LiveSurface::Splicing {
 
   void note_irregular(std::uint32_t slice) {
     irregular_.push_back(slice);
+    if (splice_.is_partial) result_.needs_below = true;
     if (slice == 0 && splice_.has_below) result_.needs_below = true;
     if (slice == layer_count() && splice_.has_above) result_.needs_above = true;
   }

@@ -37,6 +37,8 @@ struct Splice {
   std::vector<Layer> layers;
   std::size_t first = 0;  ///< from here up to but not `last` they come
   std::size_t last = 0;
+  /// Of the layers that come only some faces do; rims of the others are there.
+  bool is_partial = false;
   bool has_below = false;  ///< whether the surface goes on below and above them
   bool has_above = false;
   /// The slices below each layer that comes, and that above the last one. The rims of the outer
@@ -54,7 +56,7 @@ struct Splice {
 /// What a splice made.
 struct Spliced {
   /// Nothing was done: in an outer slice there is more than its contours. The next layer has to
-  /// come, too.
+  /// come, too; of partial layers everything.
   bool needs_below = false;
   bool needs_above = false;
   /// The faces of each layer that came: those of its tiles in their order, then those that sewing

@@ -19,6 +19,7 @@
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/refine.h"
 #include "reconstruct/region.h"
+#include "reconstruct/retile.h"
 #include "reconstruct/sewing.h"
 #include "reconstruct/smooth.h"
 #include "reconstruct/tiles.h"
@@ -51,6 +52,7 @@ struct LiveSlab {
   Faces faces;
   Faces bottom;  // of the caps
   Faces top;
+  bool is_plain = false;  // sewing has doubled nothing of it
 };
 
 using Slabs = std::map<double, LiveSlab>;
@@ -249,6 +251,9 @@ class Reconstruction::Stack::Edit {
     bool is_last;
     LiveSlab* there = nullptr;       // where it is there already
     std::optional<LiveSlab> made{};  // where it is not, or changes
+    LiveSlab* before = nullptr;      // of which it keeps some tiles
+    std::vector<std::uint32_t> kept{};
+    std::vector<std::uint32_t> dropped{};
     std::optional<TileSet> tiles{};  // before ends are linked, and after
     std::optional<Pieces> pieces{};
     bool keeps_tiles = false;  // only its caps change
@@ -309,22 +314,22 @@ class Reconstruction::Stack::Edit {
   [[nodiscard]] Station make_station(double z, Slice slice) {
     Station station;
     station.slice = std::make_shared<const Slice>(std::move(slice));
-    station.number = stack_.next_number_;
+    const auto there = stack_.stations_.find(z);
+    const bool is_known = there != stack_.stations_.end();
+    station.number = is_known ? there->second.number : stack_.next_number_;
     const Slice* part = station.slice.get();
     station.region =
         std::make_shared<const Region>(clean(Height{z, {station.number}}, std::span(&part, 1),
                                              stack_.options_, station.repairs, stack_.memory_));
     std::ranges::copy(station.repairs, std::back_inserter(change_.repairs));
-    const auto there = stack_.stations_.find(z);
-    if (there != stack_.stations_.end() && are_same(*there->second.region, *station.region)) {
-      station.number = there->second.number;
+    if (is_known && are_same(*there->second.region, *station.region)) {
       station.region = there->second.region;
       station.shape = there->second.shape;
       station.rim = there->second.rim;
       return station;
     }
     is_quiet_ = false;
-    ++stack_.next_number_;
+    if (!is_known) ++stack_.next_number_;
     add_shape(station);
     station.rim.edges.resize(station.region->loop_vertices.size());
     return station;
@@ -439,11 +444,47 @@ class Reconstruction::Stack::Edit {
   void tile(Gap& gap) {
     if (gap.there != nullptr) return;
     gap.made.emplace();
-    tile_by_overlap(gap);
+    if (!tile_in_part(gap)) tile_by_overlap(gap);
     gap.made->found = std::make_shared<const Pieces>(*gap.pieces);
   }
 
+  /// Where the slab was there, but for some loops of one of its slices.
+  bool tile_in_part(Gap& gap) {
+    const Options& options = stack_.options_;
+    if (options.smooth || options.max_edge || options.target_edge || gap.is_first || gap.is_last)
+      return false;
+    const auto found = stack_.slabs_.find(gap.lower->region->z);
+    if (found == stack_.slabs_.end()) return false;
+    LiveSlab& before = found->second;
+    const FrozenSlab& old = *before.frozen;
+    const bool is_lower_same = old.lower == gap.lower->region;
+    if (old.info.high != gap.upper->region->z || !before.is_plain || !before.links.empty() ||
+        old.has_bottom_cap || old.has_top_cap || is_lower_same == (old.upper == gap.upper->region))
+      return false;
+    const Station& changed = is_lower_same ? *gap.upper : *gap.lower;
+    const auto& matches = match(changed, is_lower_same ? *old.upper : *old.lower);
+    auto retiled =
+        retile({*old.lower, *old.upper, *old.tiles, *old.pieces, *gap.lower->region,
+                *gap.upper->region, is_lower_same ? Level::upper : Level::lower, matches},
+               options, stack_.workspace_);
+    if (!retiled) return false;
+    gap.before = &before;
+    gap.kept = std::move(retiled->kept);
+    gap.dropped = std::move(retiled->gone);
+    gap.tiles = std::move(retiled->tiles);
+    gap.pieces = std::move(retiled->pieces);
+    return true;
+  }
+
+  /// The loops of a slice that it had before. Its edges there stay, as long as a face is at them.
+  const std::vector<std::uint32_t>& match(const Station& station, const Region& old) {
+    const auto [found, is_new] = matches_.try_emplace(station.region->z);
+    if (is_new) found->second = match_loops(*station.region, old);
+    return found->second;
+  }
+
   void tile_by_overlap(Gap& gap) {
+    gap.before = nullptr;
     OrderedTiles tiled = tile_by_orders(*gap.lower->region, *gap.upper->region, stack_.options_, {},
                                         stack_.workspace_);
     gap.tiles = std::move(tiled.tiles);
@@ -472,6 +513,8 @@ class Reconstruction::Stack::Edit {
       gap.made.emplace();
       gap.made->found = gap.there->found;
       tile_by_overlap(gap);
+    } else if (gap.before != nullptr && !links.empty()) {
+      tile_by_overlap(gap);  // the pieces are the same, and in the same order
     }
     link_ends(*gap.lower->region, *gap.upper->region, *gap.tiles, *gap.pieces, links);
     gap.made->links = std::move(links);
@@ -537,6 +580,7 @@ class Reconstruction::Stack::Edit {
       gap.made->found = gap.there->found;
       gap.made->links = gap.there->links;
       gap.made->shapes = gap.there->shapes;
+      gap.made->is_plain = gap.there->is_plain;
     }
     auto frozen = std::make_shared<FrozenSlab>(*gap.made->frozen);
     frozen->info.id = stack_.next_id_++;
@@ -559,6 +603,7 @@ class Reconstruction::Stack::Edit {
   };
 
   void take_over() {
+    keep_rims();
     for (const double z : gone_) let_go(stack_.slabs_.find(z)->second);
     for (Gap& gap : gaps_) list_units(gap);
     for (std::size_t i = 0; i < units_.size();) {
@@ -585,7 +630,29 @@ class Reconstruction::Stack::Edit {
       if (station != stack_.stations_.end()) rims_.push_back(&station->second.rim);
     }
     for (const Faces* faces : {&slab.bottom, &slab.faces, &slab.top})
-      removed_.insert(removed_.end(), faces->begin(), faces->end());
+      if (faces != &slab.faces || !is_kept_in_part(slab))
+        removed_.insert(removed_.end(), faces->begin(), faces->end());
+  }
+
+  [[nodiscard]] bool is_kept_in_part(const LiveSlab& slab) const {
+    return std::ranges::any_of(gaps_, [&](const Gap& gap) { return gap.before == &slab; });
+  }
+
+  /// The edges of contours that a new slice has from the one before, as far as faces stay there.
+  void keep_rims() {
+    for (std::size_t i = 0; i < edits_.size(); ++i) {
+      const auto matched = matches_.find(edits_[i].first);
+      if (matched == matches_.end() || old_[i].empty()) continue;
+      const Station& old = old_[i].mapped();
+      Station& now = stack_.stations_.find(edits_[i].first)->second;
+      for (std::uint32_t l = 0; l < matched->second.size(); ++l) {
+        if (matched->second[l] == Origin::none) continue;
+        const auto from = old.rim.edges.begin() + old.region->loop_starts[matched->second[l]];
+        std::copy_n(from, now.region->loop(l).size(),
+                    now.rim.edges.begin() + now.region->loop_starts[l]);
+      }
+      rims_.push_back(&now.rim);
+    }
   }
 
   void list_units(Gap& gap) {
@@ -608,6 +675,11 @@ class Reconstruction::Stack::Edit {
       stack_.live_.set_slab(slab.bottom, slab.frozen->info.id);
       stack_.live_.set_slab(slab.top, slab.frozen->info.id);
     }
+    if (gap.before != nullptr) {
+      for (const std::uint32_t tile : gap.kept) slab.faces.push_back(gap.before->faces[tile]);
+      for (const std::uint32_t tile : gap.dropped) removed_.push_back(gap.before->faces[tile]);
+      stack_.live_.set_slab(slab.faces, slab.frozen->info.id);
+    }
     if (slab.frozen->has_bottom_cap)
       units_.push_back({&gap, Unit::Kind::bottom_cap, slab.bottom.empty(), &slab.bottom});
     units_.push_back({&gap, Unit::Kind::slab, gap.made && !gap.keeps_tiles, &slab.faces});
@@ -628,7 +700,13 @@ class Reconstruction::Stack::Edit {
     }
     if (unit.kind == Unit::Kind::top_cap)
       return top_cap(*slab.upper, slab.info.id, slab.lower->slice);
-    return {slab.lower.get(), slab.upper.get(), *slab.tiles, slab.info.id, slab.lower->slice};
+    Layer layer{slab.lower.get(), slab.upper.get(), {}, slab.info.id, slab.lower->slice};
+    layer.tiles.inner = slab.tiles->inner;
+    const bool is_partial = unit.is_new && unit.gap->before != nullptr;
+    const std::size_t kept = is_partial ? unit.gap->kept.size() : 0;
+    layer.tiles.tiles.assign(slab.tiles->tiles.begin() + static_cast<std::ptrdiff_t>(kept),
+                             slab.tiles->tiles.end());
+    return layer;
   }
 
   [[nodiscard]] static RimmedSlice below(const Unit& unit) {
@@ -662,15 +740,37 @@ class Reconstruction::Stack::Edit {
       while (first > 0 && !below(units_[first]).rim->is_regular) --first;
       while (last < units_.size() && !above(units_[last - 1]).rim->is_regular) ++last;
       const Spliced spliced = stack_.live_.splice(make_splice(begin, end, first, last));
+      if ((spliced.needs_below || spliced.needs_above) && make_whole(begin, end)) continue;
       if (spliced.needs_below) --first;
       if (spliced.needs_above) ++last;
       if (spliced.needs_below || spliced.needs_above) continue;
-      for (std::size_t i = first; i < last; ++i) *units_[i].faces = spliced.faces[i - first];
+      for (std::size_t i = first; i < last; ++i) {
+        Faces& faces = *units_[i].faces;
+        if (units_[i].gap->before == nullptr || !units_[i].is_new) faces.clear();
+        faces.insert(faces.end(), spliced.faces[i - first].begin(), spliced.faces[i - first].end());
+        Gap& gap = *units_[i].gap;
+        (gap.made ? *gap.made : *gap.there).is_plain = spliced.is_plain;
+        units_[i].is_new = false;
+      }
       add(spliced);
       removed_.clear();
       rims_.clear();
       return;
     }
+  }
+
+  /// Gives up that slabs keep some of their tiles. Whether any did.
+  bool make_whole(std::size_t begin, std::size_t end) {
+    bool has_any = false;
+    for (std::size_t i = begin; i < end; ++i) {
+      Gap& gap = *units_[i].gap;
+      if (gap.before == nullptr) continue;
+      removed_.insert(removed_.end(), units_[i].faces->begin(), units_[i].faces->end());
+      units_[i].faces->clear();
+      gap.before = nullptr;
+      has_any = true;
+    }
+    return has_any;
   }
 
   [[nodiscard]] Splice make_splice(std::size_t begin, std::size_t end, std::size_t first,
@@ -682,6 +782,10 @@ class Reconstruction::Stack::Edit {
       splice.layers.push_back(layer(units_[i]));
     splice.first = first - context_begin;
     splice.last = last - context_begin;
+    splice.is_partial =
+        std::any_of(units_.begin() + static_cast<std::ptrdiff_t>(first),
+                    units_.begin() + static_cast<std::ptrdiff_t>(last),
+                    [](const Unit& unit) { return unit.is_new && unit.gap->before != nullptr; });
     splice.has_below = first > 0;
     splice.has_above = last < units_.size();
     splice.removed = removed_;
@@ -714,9 +818,10 @@ class Reconstruction::Stack::Edit {
   Station old_below_;
   Station old_above_;
   std::optional<std::pair<double, double>> ends_;
-  std::vector<Station*> line_;  // the slices near the edit
-  std::vector<Gap> gaps_;       // between them
-  std::vector<double> gone_;    // where slabs begin that go
+  std::vector<Station*> line_;                            // the slices near the edit
+  std::vector<Gap> gaps_;                                 // between them
+  std::vector<double> gone_;                              // where slabs begin that go
+  std::map<double, std::vector<std::uint32_t>> matches_;  // loops that slices had before
   std::vector<Unit> units_;
   Faces removed_;
   std::vector<Rim*> rims_;  // of the slices at the faces that go

@@ -43,11 +43,12 @@ struct FrozenSlab {
   SlabInfo info{};
   std::shared_ptr<const Region> lower{};
   std::shared_ptr<const Region> upper{};
-  std::shared_ptr<const TileSet> tiles{};   ///< as they are in the surface
-  std::shared_ptr<const TileSet> linked{};  ///< as linking left them: the same, unless they were bent
-  std::shared_ptr<const Pieces> pieces{};   ///< of the latter
-  double volume = 0;                      ///< enclosed between the slices
-  bool has_bottom_cap = false;            ///< what is flat below and above the tiles
+  std::shared_ptr<const TileSet> tiles{};  ///< as they are in the surface
+  std::shared_ptr<const TileSet>
+      linked{};  ///< as linking left them: the same, unless they were bent
+  std::shared_ptr<const Pieces> pieces{};  ///< of the latter
+  double volume = 0;                       ///< enclosed between the slices
+  bool has_bottom_cap = false;             ///< what is flat below and above the tiles
   bool has_top_cap = false;
 };
 

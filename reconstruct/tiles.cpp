@@ -120,17 +120,17 @@ class Tiling {
     return place_of(slab_.lower(), slab_.upper(), tiles_.inner, node);
   }
 
-  /// Triangulates polygon_, counter-clockwise as seen from outside, over the line from -> to.
+  /// Triangulates polygon_, counter-clockwise as seen from outside, over the line from -> to. How
+  /// does not depend on the line's direction: it is seen from the same side, turned or not.
   void fill_upright(const Vec3& from, const Vec3& to) {
     const unsigned axis = std::abs(to[0] - from[0]) >= std::abs(to[1] - from[1]) ? 0 : 1;
-    const double sign = to[axis] > from[axis] ? 1 : -1;
     flat_.clear();
     for (const std::uint32_t node : polygon_) {
       const Vec3 p = place(node);
-      flat_.push_back({sign * p[axis], p[2]});
+      flat_.push_back({p[axis], p[2]});
     }
     const std::size_t count = tiles_.tiles.size();
-    if (polygon_.size() > 3) fill_polygon();
+    if (polygon_.size() > 3) fill_polygon(to[axis] < from[axis]);
     if (tiles_.tiles.size() == count + polygon_.size() - 2) return;
     // A triangle; or rounding has bent the roof into the base: then what counts is to close it.
     tiles_.tiles.resize(count);
@@ -141,8 +141,8 @@ class Tiling {
   }
 
   /// The polygon's constrained Delaunay triangulation: of all ways to cut it the one with the best
-  /// shapes. Adds nothing if the polygon crosses itself.
-  void fill_polygon() {
+  /// shapes. Adds nothing if the polygon crosses itself. `is_turned`: it goes round clockwise.
+  void fill_polygon(bool is_turned) {
     wall_.clear();
     const auto ring = wall_.insert(flat_, cdt::closed);
     if (wall_.vertex_count() != polygon_.size()) return;
@@ -154,9 +154,10 @@ class Tiling {
     for (std::uint32_t t = 0; t < wall_.triangle_bound(); ++t) {
       if (!is_inside[t]) continue;
       const EdgeId e = Triangulation::edge(cdt::TriangleId(t));
-      add({corner_[wall_.from(e).index()], corner_[wall_.to(e).index()],
-           corner_[wall_.apex(e).index()]},
-          FaceKind::wall);
+      std::uint32_t a = corner_[wall_.from(e).index()];
+      std::uint32_t b = corner_[wall_.to(e).index()];
+      if (is_turned) std::swap(a, b);
+      add({a, b, corner_[wall_.apex(e).index()]}, FaceKind::wall);
     }
   }
 
@@ -189,7 +190,12 @@ Scale scale(const Region& lower, const Region& upper) {
       farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
     }
   }
-  const double size = box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y);
+  const auto power = [](double length) {
+    return length > 0 ? std::exp2(std::ceil(std::log2(length))) : 0;
+  };
+  const double size =
+      power(box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y));
+  farthest = power(farthest);
   return {std::max(size * 0x1p-18, farthest * 0x1p-50),
           std::max(size * 0x1p-28, farthest * 0x1p-44)};
 }
@@ -300,6 +306,7 @@ std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, Po
   if (!drafted) return {};
   collapse_crossings(lower, upper, drafted->tiles);
   const bool is_doubtful = drafted->is_doubtful || shear != Point{};
+  drafted->tiles.is_plain = !is_doubtful;
   if (is_doubtful && meet(lower, upper, drafted->tiles, pairs_left)) return {};
   return std::move(drafted->tiles);
 }
@@ -338,6 +345,17 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
 }
 
 }  // namespace
+
+double doubt(const Region& lower, const Region& upper) { return scale(lower, upper).tight; }
+
+std::optional<TileSet> tile_plain(const Region& lower, const Region& upper, double doubt,
+                                  TileWorkspace& workspace) {
+  if (lower.is_empty() || upper.is_empty()) return {};
+  std::size_t pairs_left = any_number;
+  auto tiles = tile_sheared(lower, upper, {}, doubt, Overlay::exact, pairs_left, workspace);
+  if (!tiles || !tiles->is_plain) return {};
+  return tiles;
+}
 
 std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
                                   std::size_t most_pairs) {

@@ -27,6 +27,7 @@ struct Tile {
 struct TileSet {
   std::vector<InnerVertex> inner;
   std::vector<Tile> tiles;
+  bool is_plain = false;  ///< they are what the overlay gives, without doubt: see tile_plain()
   bool is_linked = true;  ///< false: no valid tiles between the slices were found, both end here
 };
 
@@ -53,6 +54,15 @@ struct TileWorkspace {
 
 /// The same tiles, without new memory for their triangulations.
 [[nodiscard]] TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace);
+
+/// Triangles of an overlay lower than that are tested for what rounding does to them: a function of
+/// the slab's size, rounded up to a power of two.
+[[nodiscard]] double doubt(const Region& lower, const Region& upper);
+
+/// The tiles of a part of a slab, as tile() makes them, if nothing about them is in doubt: then
+/// they do not depend on what else is in the slab. `doubt` is that of the whole slab.
+[[nodiscard]] std::optional<TileSet> tile_plain(const Region& lower, const Region& upper,
+                                                double doubt, TileWorkspace& workspace);
 
 /// No limit.
 inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/reconstruction.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <iostream>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "reconstruct/measure.h"
 #include "tests/reconstruct/edit_script.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
@@ -85,6 +88,102 @@ TEST(Reconstruction, RandomEditsOfAForkGiveWhatTheBatchGives) {
 TEST(Reconstruction, RandomEditsOfCrossingPolygonsGiveWhatTheBatchGives) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed)
     play(random_pool(seed, 6, seed % 2 == 0), {}, seed, edit_count(60), 1);
+}
+
+/// Contours side by side, some with cavities, maybe all in a plate.
+std::vector<Slice> many_pool(std::uint64_t seed, std::size_t count, bool in_plate) {
+  std::mt19937_64 random(seed);
+  const auto share = [&] { return static_cast<double>(random() % 1000) / 1000; };
+  std::vector<Slice> pool;
+  for (std::size_t i = 0; i < count; ++i) {
+    Slice& slice = pool.emplace_back(Slice{static_cast<double>(i), {}});
+    for (int k = 0; k < 9; ++k) {
+      const cdt::Point centre{10.0 * (k % 3) + share(), 10.0 * (k / 3) + share()};
+      slice.contours.push_back(
+          stacks::circle(8 + random() % 8, 3 + 1.5 * share(), centre, share()));
+      if (random() % 3 == 0) slice.contours.push_back(stacks::circle(6, 1 + share(), centre));
+    }
+    if (in_plate) slice.contours.push_back(stacks::square(30, {10, 10}));
+  }
+  return pool;
+}
+
+TEST(Reconstruction, RandomEditsOfManyContoursGiveWhatTheBatchGives) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed)
+    play(many_pool(seed, 5, seed % 2 == 0), {}, seed, edit_count(100), 2);
+}
+
+TEST(Reconstruction, OneContourOfManyLeavesTheFacesOfTheOthersInTheirPlaces) {
+  Reconstruction live;
+  for (const Slice& slice : many_pool(5, 5, false)) live.insert(slice);
+  const Surface before = live.surface();
+  Contour moved = live.find(2)->contours[0];
+  for (cdt::Point& p : moved.points) p.x += 0.25;
+  const SurfaceChange change = live.move_contour(2, 0, moved.points);
+  EXPECT_EQ(change.added.size(), 2U);
+  EXPECT_LT(change.faces_removed, live.face_count() / 9);
+  EXPECT_EQ(difference(live, {}), "");
+  // Where nothing was reported, the same handles have the same corners.
+  std::size_t same = 0;
+  for (const Surface::FaceHandle f : before.faces()) {
+    if (live.surface().status(f).deleted()) continue;
+    std::vector<Surface::Point> old_corners;
+    std::vector<Surface::Point> new_corners;
+    for (const auto v : before.fv_range(f)) old_corners.push_back(before.point(v));
+    for (const auto v : live.surface().fv_range(f)) new_corners.push_back(live.surface().point(v));
+    if (old_corners == new_corners) ++same;
+  }
+  EXPECT_GE(same, before.n_faces() - change.faces_removed);
+}
+
+TEST(Reconstruction, VolumeAndCountsAreThoseOfTheSurface) {
+  for (const Cap cap : {Cap::flat, Cap::dome}) {
+    Reconstruction live({.cap = cap});
+    for (const Slice& slice : stacks::y_branch(9, 24)) live.insert(slice);
+    live.replace(2, {2, {stacks::circle(30, 1.5)}});
+    const Measures measures = measure(to_mesh(live.snapshot().surface(1)));
+    EXPECT_NEAR(live.volume(), measures.volume, 1e-12 * measures.volume);
+    EXPECT_EQ(live.face_count(), measures.faces);
+    EXPECT_EQ(live.vertex_count(), measures.vertices);
+  }
+}
+
+TEST(Reconstruction, BadEditsSayWhatIsWrong) {
+  using testing::HasSubstr;
+  using testing::ThrowsMessage;
+  Reconstruction live;
+  live.insert(Slice{1, {stacks::circle(5, 1)}});
+  const auto bad = Slice{2, {{{{0, 0}, {NAN, 1}, {2, INFINITY}}, ""}}};
+  EXPECT_THAT([&] { live.insert(bad); }, ThrowsMessage<InputError>(testing::AllOf(
+                                             HasSubstr("point 1"), HasSubstr("point 2"))));
+  EXPECT_THAT([&] { live.remove(3); }, ThrowsMessage<InputError>(HasSubstr("no slice at z = 3")));
+  EXPECT_THAT(
+      [&] {
+        live.replace(3, Slice{1, {}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("no slice at z = 3")));
+  EXPECT_THAT([&] { live.move_contour(1, 1, {}); },
+              ThrowsMessage<InputError>(HasSubstr("has no contour 1")));
+  EXPECT_THAT(
+      [&] {
+        live.insert(Slice{std::nextafter(1.0, 2.0), {}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("nearer to the slice at z = 1 ")));
+  EXPECT_THROW(Reconstruction({.simplify = 1}), std::invalid_argument);
+}
+
+TEST(Reconstruction, SnapshotsStayAsTheyWere) {
+  Reconstruction live;
+  for (const Slice& slice : stacks::sphere(6, 12)) live.insert(slice);
+  const Snapshot snapshot = live.snapshot();
+  const Mesh before = to_mesh(snapshot.surface(1));
+  live.remove(live.slices()[2].z);
+  live.replace(live.slices()[3].z, Slice{live.slices()[3].z, {stacks::square(0.3)}});
+  EXPECT_EQ(to_mesh(snapshot.surface(1)), before);
+  std::size_t faces = 0;
+  for (std::size_t i = 0; i < snapshot.slab_count(); ++i)
+    faces += snapshot.patch(i, i + 1).mesh.faces.size();
+  EXPECT_EQ(faces, before.faces.size());
 }
 
 TEST(Reconstruction, RandomEditsOfMasksThatTouchGiveWhatTheBatchGives) {
