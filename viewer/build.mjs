@@ -45,7 +45,8 @@ function pieces(bytes) {
   return lines.join(',\n');
 }
 
-const contents = files.map(([, , bytes], i) => `  static const std::string file${i} = join({\n${pieces(bytes)}});\n`);
+const contents = files.map(([, , bytes], i) =>
+  `  static const std::string file${i} = join({\n${pieces(bytes)}});\n`);
 const entries = files.map(([path, type], i) => `Asset{"${path}", "${type}", file${i}}`);
 
 await writeFile(out, `// Made by viewer/build.mjs.
