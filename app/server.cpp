@@ -97,8 +97,10 @@ class Server::Routes {
                                {"X-Content-Type-Options", "nosniff"},
                                {"Referrer-Policy", "no-referrer"}});
     http_.set_pre_routing_handler([this](const Request& request, Response& response) {
-      return admit(request, response) ? httplib::Server::HandlerResponse::Unhandled
-                                      : httplib::Server::HandlerResponse::Handled;
+      // A body has to be read before it is refused: else it would be taken for the next request.
+      const bool has_no_body = request.method == "GET" || request.method == "HEAD";
+      return has_no_body && !admit(request, response) ? httplib::Server::HandlerResponse::Handled
+                                                      : httplib::Server::HandlerResponse::Unhandled;
     });
     http_.set_error_handler([](const Request& request, Response& response) {
       if (response.body.empty()) explain(request, response);
@@ -207,6 +209,7 @@ class Server::Routes {
     });
     if (is_too_large) response.status = 413;
     if (!is_whole || is_too_large) return explain(request, response);
+    if (!admit(request, response)) return;
     std::list<Line> lines = submit(body);
     if (lines.empty()) return refuse(response, 400, "no edits in the body; a line each");
     int status = 200;
