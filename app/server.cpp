@@ -97,8 +97,10 @@ class Server::Routes {
                                {"X-Content-Type-Options", "nosniff"},
                                {"Referrer-Policy", "no-referrer"}});
     http_.set_pre_routing_handler([this](const Request& request, Response& response) {
-      return admit(request, response) ? httplib::Server::HandlerResponse::Unhandled
-                                      : httplib::Server::HandlerResponse::Handled;
+      // A body has to be read before it is refused: else it would be taken for the next request.
+      const bool has_no_body = request.method == "GET" || request.method == "HEAD";
+      return has_no_body && !admit(request, response) ? httplib::Server::HandlerResponse::Handled
+                                                      : httplib::Server::HandlerResponse::Unhandled;
     });
     http_.set_error_handler([](const Request& request, Response& response) {
       if (response.body.empty()) explain(request, response);
@@ -157,13 +159,14 @@ class Server::Routes {
     if (response.status == 413)
       return refuse(response, 413, "the body is too large; send fewer slices at once");
     if (response.status == 404) return refuse(response, 404, "there is no " + request.path);
-    refuse(response, response.status, "the request was not understood");
+    refuse(response, std::max(response.status, 400), "the request was not understood");
   }
 
   void add_routes() {
     if (capture_ != nullptr)
       http_.Post("/slices",
-                 [this](const Request& request, Response& response) { post(request, response); });
+                 [this](const Request& request, Response& response,
+                        const httplib::ContentReader& read) { post(request, response, read); });
     http_.Get("/slices",
               [this](const Request& request, Response& response) { slices(request, response); });
     http_.Get(R"(/slabs/(\d{1,9})-(\d{1,9})\.glb)",
@@ -188,8 +191,26 @@ class Server::Routes {
 
   // --- Edits ---
 
-  void post(const Request& request, Response& response) {
-    std::list<Line> lines = submit(request.body);
+  /// Reads the body itself: where a client calls it a form, as curl does unless told otherwise, the
+  /// library would take 8 KiB only.
+  void post(const Request& request, Response& response, const httplib::ContentReader& read) {
+    if (request.is_multipart_form_data()) {
+      read([](const auto&) { return true; }, [](const char*, std::size_t) { return true; });
+      return refuse(response, 415, "send the edits themselves, a line each, and no form");
+    }
+    std::string body;
+    bool is_too_large = false;
+    const bool is_whole = read([&](const char* bytes, std::size_t size) {
+      // The library has no limit for bodies that come in chunks. What is too much is read, so that
+      // the next request is found behind it, and forgotten.
+      is_too_large = is_too_large || size > setup_.most_bytes - body.size();
+      if (!is_too_large) body.append(bytes, size);
+      return true;
+    });
+    if (is_too_large) response.status = 413;
+    if (!is_whole || is_too_large) return explain(request, response);
+    if (!admit(request, response)) return;
+    std::list<Line> lines = submit(body);
     if (lines.empty()) return refuse(response, 400, "no edits in the body; a line each");
     int status = 200;
     Json results = Json::array();
@@ -272,7 +293,7 @@ class Server::Routes {
     const auto part = std::stoul(request.matches[1].str());
     const auto id = static_cast<std::uint32_t>(std::stoul(request.matches[2].str()));
     const auto glb = shown_.slab(part, id);
-    if (!glb) return refuse(response, 404, "this slab is gone, or never was");
+    if (!glb) return refuse(response, 404, "there is no such slab; it is gone, or never was");
     response.set_content(*glb, "model/gltf-binary");
   }
 

@@ -37,26 +37,42 @@ function escaped(byte) {
   return isPlain ? String.fromCharCode(byte) : `\\${byte.toString(8).padStart(3, '0')}`;
 }
 
-function literal(bytes) {
+// No compiler has to take literals of more than 65,536 bytes.
+function pieces(bytes) {
   const lines = [];
-  for (let i = 0; i < bytes.length; i += 4096)
-    lines.push(`"${Array.from(bytes.subarray(i, i + 4096), escaped).join('')}"`);
-  return lines.join('\n');
+  for (let i = 0; i < bytes.length; i += 32768)
+    lines.push(`"${Array.from(bytes.subarray(i, i + 32768), escaped).join('')}"sv`);
+  return lines.join(',\n');
 }
 
-const entries = files.map(([path, type, bytes]) =>
-  `Asset{"${path}", "${type}", std::string_view(\n${literal(bytes)},\n${bytes.length})}`);
+const contents = files.map(([, , bytes], i) =>
+  `  static const std::string file${i} = join({\n${pieces(bytes)}});\n`);
+const entries = files.map(([path, type], i) => `Asset{"${path}", "${type}", file${i}}`);
 
 await writeFile(out, `// Made by viewer/build.mjs.
 #include <array>
+#include <initializer_list>
+#include <string>
+#include <string_view>
 
 #include "app/assets.h"
 
 namespace loft::app {
 
+using namespace std::string_view_literals;
+
+namespace {
+
+std::string join(std::initializer_list<std::string_view> pieces) {
+  std::string all;
+  for (const std::string_view piece : pieces) all += piece;
+  return all;
+}
+
+}  // namespace
+
 std::span<const Asset> assets() {
-  static constexpr std::array files{
-${entries.join(',\n')}};
+${contents.join('')}  static const std::array files{${entries.join(', ')}};
   return files;
 }
 

@@ -206,6 +206,32 @@ TEST_F(Posting, SaysWhatIsWrongWithARequest) {
   EXPECT_EQ(json::parse(client_->Get("/status")->body)["slices"], 0);
 }
 
+TEST_F(Posting, TakesWhatCurlCallsAForm) {
+  const auto answer = client_->Post("/slices", stack(40), "application/x-www-form-urlencoded");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_EQ(json::parse(client_->Get("/status")->body)["slices"], 40);
+  const httplib::MultipartFormDataItems items{{"slices", stack(2), "slices.ndjson", ""}};
+  const auto form = client_->Post("/slices", items);
+  ASSERT_TRUE(form);
+  EXPECT_EQ(form->status, 415);
+}
+
+TEST_F(Posting, RefusesLargeBodiesThatComeInChunks) {
+  std::size_t sent = 0;
+  const auto send = [&](std::size_t, httplib::DataSink& sink) {
+    const std::string blanks(1 << 16, ' ');
+    sent += blanks.size();
+    sink.write(blanks.data(), blanks.size());
+    if (sent >= std::size_t{8} << 20U) sink.done();
+    return true;
+  };
+  const auto answer = client_->Post("/slices", httplib::Headers{}, send, "application/x-ndjson");
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 413);
+  EXPECT_EQ(json::parse(client_->Get("/status")->body)["slices"], 0);
+}
+
 TEST_F(Posting, GivesTheSurfaceAndItsParts) {
   ASSERT_TRUE(post(stack(4)));
   for (const std::string name : {"surface.ply", "surface.glb", "surface.stl", "surface.obj"}) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A page in Debian's Chromium, and what can be seen on it.
 import { chromium } from 'playwright-core';
+import { readPng } from './png.mjs';
 
 const patience = 60_000;  // ms; for slow machines: nothing waits that long where all is well
 
@@ -59,30 +60,15 @@ export class Viewer {
 
   isTheSamePage() { return this.page.evaluate(() => globalThis.isTheSamePage === true); }
 
-  // The canvas as it is seen: width, height and RGBA. Decoded by a page of its own, which no policy
-  // hinders.
+  // The canvas as it is seen.
   async picture() {
-    this.decoder ??= await this.context.newPage();
-    const png = await this.page.locator('#canvas').screenshot();
-    const { width, height, rgba } = await this.decoder.evaluate(async (source) => {
-      const image = new Image();
-      image.src = source;
-      await image.decode();
-      const canvas = new OffscreenCanvas(image.width, image.height);
-      const context = canvas.getContext('2d');
-      context.drawImage(image, 0, 0);
-      const { data } = context.getImageData(0, 0, image.width, image.height);
-      const reader = new FileReader();
-      reader.readAsDataURL(new Blob([data]));
-      await new Promise((resolve) => { reader.onload = resolve; });
-      return { width: image.width, height: image.height, rgba: reader.result.split(',')[1] };
-    }, `data:image/png;base64,${png.toString('base64')}`);
-    return { width, height, pixels: Buffer.from(rgba, 'base64') };
+    return readPng(await this.page.locator('#canvas').screenshot());
   }
 }
 
-export function pixel({ width, pixels }, x, y) {
-  return [...pixels.subarray(4 * (y * width + x), 4 * (y * width + x) + 3)];
+export function pixel({ width, channels, pixels }, x, y) {
+  const at = channels * (y * width + x);
+  return [...pixels.subarray(at, at + 3)];
 }
 
 export function brightness(colour) {
@@ -92,7 +78,7 @@ export function brightness(colour) {
 // How many pixels of two pictures differ by more than a shade.
 export function difference(a, b) {
   let count = 0;
-  for (let i = 0; i < a.pixels.length; i += 4) {
+  for (let i = 0; i < a.pixels.length; i += a.channels) {
     const isOther = [0, 1, 2].some((k) => Math.abs(a.pixels[i + k] - b.pixels[i + k]) > 12);
     if (isOther) ++count;
   }

@@ -46,7 +46,8 @@ test('A slab that nothing replaces goes at once', () => {
 
 test('Labels do not wait for one another', () => {
   const picture = new Picture();
-  picture.change([], [slab('0-1', 0, 1, 'a'), slab('1-1', 0, 1, 'b')]).forEach((one) => picture.arrive(one));
+  picture.change([], [slab('0-1', 0, 1, 'a'), slab('1-1', 0, 1, 'b')])
+    .forEach((one) => picture.arrive(one));
   picture.change(['0-1'], []);
   picture.change(['1-1'], [slab('1-2', 0, 1, 'b')]);
   assert.deepEqual(picture.ids, ['1-1']);
@@ -62,7 +63,7 @@ test('Where slabs change faster than they arrive the newest that did is shown', 
   assert.deepEqual(picture.ids, ['0-2']);
 });
 
-test('After a reset what is shown stays until the new slabs are there, even with the same ids', () => {
+test('After a reset what is shown stays until the new slabs are there', () => {
   const picture = new Picture();
   picture.change([], [slab('0-1', 0, 1)]).forEach((one) => picture.arrive(one));
   const before = [...picture.shown];
@@ -99,14 +100,14 @@ test('Once all have arrived, in any order, exactly the slabs that there are are 
     for (let step = 0; step < 60; ++step) {
       picture.now += pick(200);
       const z = 1 + pick(15);
-      const is = heights.includes(z);
       if (pick(2) === 0) {
         const below = Math.max(...heights.filter((height) => height < z));
         const above = Math.min(...heights.filter((height) => height > z));
-        const [wasThere, stays] = [is, !is || pick(2) === 0];
-        if (!wasThere) heights.push(z);
-        if (!stays) heights.splice(heights.indexOf(z), 1);
-        rebuild(below, above, stays ? [below, z, above] : [below, above]);
+        const isThere = heights.includes(z);
+        const isRemoved = isThere && pick(2) === 0;
+        if (!isThere) heights.push(z);
+        if (isRemoved) heights.splice(heights.indexOf(z), 1);
+        rebuild(below, above, isRemoved ? [below, above] : [below, z, above]);
       } else if (underway.length > 0) {
         picture.arrive(...underway.splice(pick(underway.length), 1));
       }

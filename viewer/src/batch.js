@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Many slabs in one draw call: they share buffers, in which each has a slot with some room to spare,
-// so that a slab of about the same size can take the slot of one that is gone.
+// Many slabs in one draw call: they share buffers, in which each has a slot with room to spare, so
+// that a slab of about the same size can take the slot of one that is gone.
 import { BatchedMesh, Box3, BufferAttribute, BufferGeometry, Vector3 } from 'three';
 
 function withRoom(count) {
@@ -39,7 +39,6 @@ export class Batch {
     const geometry = geometryOf(slab);
     const slot = this.#reuse(geometry) ?? this.#make(geometry);
     slot.box = geometry.boundingBox.clone();
-    slot.triangles = geometry.index.count / 3;
     this.#mesh.setVisibleAt(slot.instance, true);
     return slot;
   }

@@ -31,11 +31,15 @@ function byAge(slabs) {
   return { of: (slab) => onRamp(ages, share(slab.edit)), gradient: gradient(ages), ends };
 }
 
+function byConfidence() {
+  return { of: ({ confidence = 1 }) => onRamp(confidences, confidence),
+           gradient: gradient(confidences), ends: ['unsure', 'sure'] };
+}
+
 // What gives slabs their colour (`of`), and what the legend has to say about it.
 export function colouring(mode, slabs) {
   if (mode === 'age') return byAge(slabs);
-  if (mode === 'confidence')
-    return { of: (slab) => onRamp(confidences, slab.confidence ?? 1), gradient: gradient(confidences), ends: ['unsure', 'sure'] };
+  if (mode === 'confidence') return byConfidence();
   const labels = new Map();
   for (const slab of slabs) if (slab.colour) labels.set(slab.label, byLabel(slab));
   return { of: byLabel, labels: [...labels].sort(([a], [b]) => (a < b ? -1 : 1)) };

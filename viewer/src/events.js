@@ -57,7 +57,8 @@ export class Events extends EventTarget {
     if (this.#state !== 'connected') return;
     try {
       const response = await fetch('status', { signal: AbortSignal.timeout(watch) });
-      if (response.ok) this.dispatchEvent(new CustomEvent('status', { detail: await response.json() }));
+      if (!response.ok) return;
+      this.dispatchEvent(new CustomEvent('status', { detail: await response.json() }));
     } catch {
       this.#tell('lost');
       this.restart();

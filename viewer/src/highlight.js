@@ -12,7 +12,8 @@ export class Highlight {
 
   constructor(scene, width) {
     const over = { depthTest: false, depthWrite: false, transparent: true };
-    this.#lines = new LineSegments2(new LineSegmentsGeometry(), new LineMaterial({ linewidth: width, ...over }));
+    const broad = new LineMaterial({ linewidth: width, ...over });
+    this.#lines = new LineSegments2(new LineSegmentsGeometry(), broad);
     this.#dot = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial(over));
     const group = new Group();
     for (const object of [this.#lines, this.#dot]) {

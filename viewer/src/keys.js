@@ -24,7 +24,8 @@ function move(controls, event) {
 // `actions`: what to do, by key.
 export function listenToKeys(stage, actions) {
   addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey || document.querySelector('dialog[open]')) return;
+    if (event.ctrlKey || event.metaKey || event.altKey) return;
+    if (document.querySelector('dialog[open]')) return;
     if (event.key.startsWith('Arrow') && !isTyping(event.target)) {
       move(stage.controls, event);
     } else if (event.key in zooms) {

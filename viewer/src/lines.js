@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Contours as thin lines, many slices to a draw call; only the page whose slice changed is redone.
-import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments, Vector3 } from 'three';
+import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments,
+         Vector3 } from 'three';
 
 const slicesPerPage = 64;
 

@@ -15,7 +15,8 @@ export class Loader {
   // A request that fails, but for 404, is tried again a little later.
   fetch(address, isWanted, take) {
     this.#waiting.push({ address, isWanted, take, tries: 0 });
-    if (this.#waiting.length % 1024 === 0) this.#waiting = this.#waiting.filter((wish) => wish.isWanted());
+    if (this.#waiting.length % 1024 === 0)
+      this.#waiting = this.#waiting.filter((wish) => wish.isWanted());
     this.#next();
   }
 

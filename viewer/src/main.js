@@ -56,9 +56,15 @@ function connectControls() {
   element('help-open').addEventListener('click', help);
   onClick(element('canvas'), pick);
   listenToKeys(view.stage, {
-    f: () => view.fit(), c: () => settings.toggle('contours'), s: () => settings.reach('slice'),
-    x: () => settings.reach('cut'), v: () => settings.toggle('cut-below'), l: () => settings.nextColour(),
-    p: () => pick(0, 0), t: () => theme.toggle(), '?': help, h: help,
+    f: () => view.fit(),
+    c: () => settings.toggle('contours'),
+    s: () => settings.reach('slice'),
+    x: () => settings.reach('cut'),
+    v: () => settings.toggle('cut-below'),
+    l: () => settings.nextColour(),
+    p: () => pick(0, 0),
+    t: () => theme.toggle(),
+    '?': help,
     escape: () => view.forgetPick(),
   });
 }

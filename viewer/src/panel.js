@@ -94,7 +94,8 @@ export class Panel {
     rows.push(['Place', place.map(number).join(', ')]);
     if (slab.label) rows.push(['Label', slab.label]);
     if (slab.confidence !== undefined)  // not of a mesh
-      rows.push(['Slab', slab.id], ['Between', `${exact(slab.low)} and ${exact(slab.high)} ${unit}`],
+      rows.push(['Slab', slab.id],
+                ['Between', `${exact(slab.low)} and ${exact(slab.high)} ${unit}`],
                 ['Confidence', number(slab.confidence)], ['Edit', count(slab.edit)]);
     const list = element('pick');
     list.replaceChildren();
@@ -111,6 +112,7 @@ export class Panel {
   }
 
   #showLatency(latency) {
-    element('latency').textContent = latency === undefined ? '–' : `${number(Math.round(latency * 100) / 100)} ms`;
+    const isKnown = latency !== undefined;
+    element('latency').textContent = isKnown ? `${latency.toFixed(latency < 100 ? 2 : 0)} ms` : '–';
   }
 }

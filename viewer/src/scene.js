@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Renderer, camera, light; a frame is drawn only when something has changed.
-import { Color, DirectionalLight, DoubleSide, HemisphereLight, MeshStandardMaterial, PerspectiveCamera, Plane,
-         Scene, Sphere, Vector3, WebGLRenderer } from 'three';
+import { Color, DirectionalLight, DoubleSide, HemisphereLight, MeshStandardMaterial,
+         PerspectiveCamera, Plane, Scene, Sphere, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 
 const isStill = matchMedia('(prefers-reduced-motion: reduce)');
@@ -21,7 +21,8 @@ export class Stage {
 
   constructor(canvas) {
     this.canvas = canvas;
-    this.renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: 'high-performance' });
+    this.renderer = new WebGLRenderer({ canvas, antialias: true,
+                                        powerPreference: 'high-performance' });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new Scene();
     this.camera = new PerspectiveCamera(35, 1, 0.01, 1000);

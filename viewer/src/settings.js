@@ -60,7 +60,7 @@ export class Settings extends EventTarget {
     const slider = element('slice');
     slider.max = Math.max(heights.length - 1, 0);
     for (const id of ['contours', 'slice-on', 'slice']) element(id).disabled = heights.length === 0;
-    element('cut').disabled = element('cut-on').disabled = element('cut-below').disabled = !this.#range;
+    for (const id of ['cut-on', 'cut', 'cut-below']) element(id).disabled = !this.#range;
     this.#z = this.#isChosen ? this.#nearest(this.#z) : heights[Math.floor(heights.length / 2)];
     slider.value = Math.max(heights.indexOf(this.#z), 0);
     this.#show();
@@ -76,7 +76,8 @@ export class Settings extends EventTarget {
 
   #nearest(z) {
     let best = this.#heights[0];
-    for (const height of this.#heights) if (Math.abs(height - z) < Math.abs(best - z)) best = height;
+    for (const height of this.#heights)
+      if (Math.abs(height - z) < Math.abs(best - z)) best = height;
     return best;
   }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The box around the surface with its lengths in the input's unit, and a grid under it.
-import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments, Vector3 } from 'three';
+import { BufferGeometry, Float32BufferAttribute, LineBasicMaterial, LineSegments,
+         Vector3 } from 'three';
 import { number } from './text.js';
 
 // 1, 2 or 5 times a power of ten, so that about ten of them make `length`.
@@ -22,7 +23,8 @@ function corner({ min, max }, i) {
 
 // The corner next to a place outside.
 function nearestCorner({ min, max }, place) {
-  return ['x', 'y', 'z'].reduce((bits, axis, i) => bits | (place[axis] > (min[axis] + max[axis]) / 2) << i, 0);
+  const isLarger = (axis) => place[axis] > (min[axis] + max[axis]) / 2;
+  return ['x', 'y', 'z'].reduce((bits, axis, i) => bits | (isLarger(axis) << i), 0);
 }
 
 // The edges of a box but for those at a corner.
@@ -89,8 +91,8 @@ export class Surroundings {
     return step;
   }
 
-  // Draws what lies behind the surface as the eye has it, and puts the lengths beside the edges of the
-  // box that are near its outline.
+  // Draws the edges that lie behind the surface as the eye has it, and puts the lengths beside
+  // those near the outline of the box.
   lookFrom(camera, canvas) {
     const isShown = this.#box !== undefined && !this.#box.isEmpty();
     for (const label of this.#labels) label.hidden = !isShown;

@@ -67,7 +67,8 @@ export class View {
   // All that the server has.
   reset(state) {
     this.#unit = nameOf(state.unit);
-    if (this.#slots.size === 0 || this.#metresPerUnit !== state.metres_per_unit) this.#frame = undefined;
+    const isOtherUnit = this.#metresPerUnit !== state.metres_per_unit;
+    if (this.#slots.size === 0 || isOtherUnit) this.#frame = undefined;
     this.#metresPerUnit = state.metres_per_unit;
     this.#contours.reset(state.slices);
     this.#lines.clear();
@@ -104,8 +105,8 @@ export class View {
     this.stage.fit(this.#box());
   }
 
-  // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to that
-  // point, if there is any.
+  // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
+  // that point, if there is any.
   async pick(x, y) {
     const hit = hitAt(this.stage, this.#batch.mesh, x, y);
     const slab = hit && [...this.#slots].find(([, slot]) => slot.instance === hit.batchId)?.[0];
@@ -221,7 +222,8 @@ export class View {
 
   async #applySlice(z) {
     const slice = z === undefined ? undefined : await this.#contours.ask(z);
-    if (!this.#frame || z !== this.#settings.slice) return;  // another one has been chosen meanwhile
+    const isOutdated = z !== this.#settings.slice;
+    if (!this.#frame || isOutdated) return;
     this.#chosen.showSlice(slice, this.#frame);
     this.stage.invalidate();
   }
