@@ -34,7 +34,7 @@ struct RimmedSlice {
 struct Splice {
   /// The layers that come, from low to high. Where contours of an outer slice touch, so may layers
   /// on both sides of it: then the one beyond comes, too, and the next is there to be looked at.
-  std::vector<Layer> layers;
+  std::vector<Layer> layers = {};
   std::size_t first = 0;  ///< from here up to but not `last` they come
   std::size_t last = 0;
   /// Of the layers that come only some faces do; rims of the others are there.
@@ -43,14 +43,14 @@ struct Splice {
   bool has_above = false;
   /// The slices below each layer that comes, and that above the last one. The rims of the outer
   /// ones are regular and there already, if the surface goes on beyond them.
-  std::vector<RimmedSlice> slices;
+  std::vector<RimmedSlice> slices = {};
   /// For each layer that comes, where it is there already with the same tiles, its faces: they stay
   /// as far as sewing joins them as it did. Null otherwise.
-  std::vector<const std::vector<Surface::FaceHandle>*> present;
+  std::vector<const std::vector<Surface::FaceHandle>*> present = {};
   /// All faces that go; those of `present` are among them.
-  std::vector<Surface::FaceHandle> removed;
+  std::vector<Surface::FaceHandle> removed = {};
   /// All rims, beside those of `slices`, that these faces may be at.
-  std::vector<Rim*> rims;
+  std::vector<Rim*> rims = {};
 };
 
 /// What a splice made.
