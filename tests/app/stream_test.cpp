@@ -194,8 +194,8 @@ TEST_F(Posting, SaysWhatIsWrongWithARequest) {
   expect(post(std::string(2 << 20, ' ')), 413, "too large");
   expect(client_->Get("/slices?z=abc"), 400, "no number");
   expect(client_->Get("/slices?z=3"), 404, "no slice");
-  expect(client_->Get("/slabs/0-99.glb"), 404, "this slab is gone, or never was");
-  expect(client_->Get("/slabs/9-9.glb"), 404, "this slab is gone, or never was");
+  expect(client_->Get("/slabs/0-99.glb"), 404, "gone, or never was");
+  expect(client_->Get("/slabs/9-9.glb"), 404, "gone, or never was");
   expect(client_->Get("/surface.glb"), 404, "no surface yet");
   expect(client_->Get("/surface.doc"), 404, "");
   expect(client_->Get("/../etc/passwd"), 404, "there is no");
