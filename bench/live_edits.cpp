@@ -79,15 +79,15 @@ std::vector<double> times(std::size_t count, Body body) {
 }
 
 void time_whole_slices(std::size_t slices, std::size_t points, std::size_t edits) {
-  const std::size_t before = mallinfo2().uordblks;
+  const auto in_use = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };
+  const std::size_t before = in_use();
   Reconstruction live;
   const auto inserts = times(
       slices, [&](std::size_t i) { static_cast<void>(live.insert(one_curve(i, points, 0))); });
   report("insert on top", inserts);
   const auto memory = [&] {
-    std::printf(
-        "memory: %.0f bytes a contour vertex\n",
-        static_cast<double>(mallinfo2().uordblks - before) / static_cast<double>(slices * points));
+    std::printf("memory: %.0f bytes a contour vertex\n",
+                static_cast<double>(in_use() - before) / static_cast<double>(slices * points));
   };
   memory();
   std::mt19937_64 random(1);
