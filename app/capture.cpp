@@ -25,12 +25,6 @@ double milliseconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double, std::milli>(time).count();
 }
 
-std::size_t point_count(const Edit& edit) {
-  std::size_t count = 0;
-  for (const Contour& contour : edit.slice.contours) count += contour.points.size();
-  return count;
-}
-
 /// Only the points with that label; contours keep their numbers.
 Slice with_label(const Slice& slice, const std::string& label) {
   Slice result{slice.z, {}};
@@ -140,7 +134,7 @@ void Capture::close() {
 // --- The queue ---
 
 Capture::Submission Capture::submit(Edit edit, Done done, std::chrono::milliseconds patience) {
-  const std::size_t points = point_count(edit);
+  const std::size_t points = point_count(edit.slice);
   std::unique_lock lock(queue_mutex_);
   const auto has_room = [&] {
     return is_closed_ || queue_.empty() ||
@@ -163,7 +157,7 @@ std::vector<Capture::Job> Capture::next_jobs() {
   // Who observes wants to see the surface after each.
   const std::size_t most = setup_.observe ? 1 : most_at_once;
   while (!queue_.empty() && jobs.size() < most) {
-    points_waiting_ -= point_count(queue_.front().edit);
+    points_waiting_ -= point_count(queue_.front().edit.slice);
     jobs.push_back(std::move(queue_.front()));
     queue_.pop_front();
   }

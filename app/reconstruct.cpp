@@ -20,6 +20,7 @@
 #include "io/slices.h"
 #include "io/surfaces.h"
 #include "reconstruct/measure.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::app {
 

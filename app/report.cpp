@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdint>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -263,11 +262,6 @@ std::string rounded(double number) {
   text.precision(4);
   text << number;
   return text.str();
-}
-
-std::string exact(double number) {
-  std::array<char, 32> text{};
-  return {text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr};
 }
 
 std::vector<std::pair<std::string, double>> lengths(const Options& options) {

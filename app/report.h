@@ -109,8 +109,6 @@ struct Report {
 /// `smallest angles: least 1.2, 5th percentile 12.3, median 34.5 degrees; worst aspect 56.7`
 [[nodiscard]] std::string describe(const Angles& angles);
 
-/// The shortest text that reads back as the same number.
-[[nodiscard]] std::string exact(double number);
 /// The options that are lengths, as far as set, by their names in files and reports.
 [[nodiscard]] std::vector<std::pair<std::string, double>> lengths(const Options& options);
 

@@ -75,11 +75,6 @@ struct Line {
   std::string error;
 };
 
-const char* name(io::Edit::Kind kind) {
-  if (kind == io::Edit::Kind::insert) return "insert";
-  return kind == io::Edit::Kind::replace ? "replace" : "remove";
-}
-
 }  // namespace
 
 class Server::Routes {
@@ -259,7 +254,7 @@ class Server::Routes {
   [[nodiscard]] static Json result(Line& line) {
     Json json{{"line", line.number}};
     if (line.read.z) json["z"] = *line.read.z;
-    json["op"] = name(line.read.edit.kind);
+    json["op"] = io::name(line.read.edit.kind);
     if (line.status == 200) {
       const Answer given = line.answer.get();
       if (given.outcome == Answer::Outcome::taken) {

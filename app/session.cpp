@@ -16,30 +16,13 @@
 #include "io/file.h"
 #include "io/slices_json.h"
 #include "io/stack_state.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::app {
 
 namespace {
 
 using io::Edit;
-
-const char* name(Edit::Kind kind) {
-  switch (kind) {
-    case Edit::Kind::insert:
-      return "insert";
-    case Edit::Kind::replace:
-      return "replace";
-    case Edit::Kind::remove:
-      break;
-  }
-  return "remove";
-}
-
-std::size_t point_count(const Slice& slice) {
-  std::size_t count = 0;
-  for (const Contour& contour : slice.contours) count += contour.points.size();
-  return count;
-}
 
 /// One line an edit, then what there is in all.
 ExitCode list(const SessionCommand& command) {
@@ -50,12 +33,12 @@ ExitCode list(const SessionCommand& command) {
   session.for_each([&](std::uint64_t number, Edit&& edit) {
     if (command.json) {
       edits.push_back({{"number", number},
-                       {"op", name(edit.kind)},
+                       {"op", io::name(edit.kind)},
                        {"z", edit.slice.z},
                        {"contours", edit.slice.contours.size()},
                        {"points", point_count(edit.slice)}});
     } else {
-      std::cout << number << ' ' << name(edit.kind) << " z = " << exact(edit.slice.z) << ", "
+      std::cout << number << ' ' << io::name(edit.kind) << " z = " << exact(edit.slice.z) << ", "
                 << edit.slice.contours.size() << " contours, " << point_count(edit.slice)
                 << " points\n";
     }
@@ -127,7 +110,7 @@ ExitCode verify(const SessionCommand& command) {
     io::StackState state;
     session.for_each([&](std::uint64_t number, Edit&& edit) {
       if (const auto problem = state.apply(edit))
-        problems.push_back("edit " + std::to_string(number) + " (" + name(edit.kind) +
+        problems.push_back("edit " + std::to_string(number) + " (" + io::name(edit.kind) +
                            " z = " + exact(edit.slice.z) + "): " + *problem);
       ++count;
     });

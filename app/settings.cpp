@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/report.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::app {
 

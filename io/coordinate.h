@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cdt/triangulation.h"
-#include "io/text.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

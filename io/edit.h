@@ -32,6 +32,9 @@ struct EditLine {
 /// Cost: O(n), no document tree is built.
 [[nodiscard]] EditLine parse_edit_line(std::string_view line);
 
+/// The kind's name in a line: `insert`, `replace` or `remove`.
+[[nodiscard]] const char* name(Edit::Kind kind);
+
 /// The line, without its end, that parse_edit_line() gives back exactly.
 [[nodiscard]] std::string to_line(const Edit& edit);
 

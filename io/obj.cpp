@@ -9,6 +9,7 @@
 #include "io/text.h"
 #include "io/text_reader.h"
 #include "io/version.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

@@ -6,9 +6,9 @@
 #include <utility>
 
 #include "io/polygons.h"
-#include "io/text.h"
 #include "io/text_reader.h"
 #include "io/version.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

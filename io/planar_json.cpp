@@ -7,8 +7,8 @@
 #include <string>
 
 #include "io/json_reader.h"
-#include "io/text.h"
 #include "io/version.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

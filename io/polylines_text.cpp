@@ -11,6 +11,7 @@
 #include "io/problems.h"
 #include "io/text.h"
 #include "io/text_reader.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "io/gltf_model.h"
-#include "io/text.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

@@ -14,6 +14,7 @@
 #include "io/slice_lines.h"
 #include "io/text.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/number_text.h"
 #include "reconstruct/parallel.h"
 
 namespace loft::io {
@@ -158,6 +159,18 @@ void write_slices_json(std::ostream& out, std::span<const Slice> slices) {
     line += '\n';
     out << line;
   }
+}
+
+const char* name(Edit::Kind kind) {
+  switch (kind) {
+    case Edit::Kind::insert:
+      return "insert";
+    case Edit::Kind::replace:
+      return "replace";
+    case Edit::Kind::remove:
+      break;
+  }
+  return "remove";
 }
 
 std::string to_line(const Edit& edit) {

@@ -32,12 +32,6 @@ std::uint64_t size_of(const std::filesystem::path& path) {
   return ignored ? 0 : size;
 }
 
-std::size_t count_points(const Slice& slice) {
-  std::size_t count = 0;
-  for (const Contour& contour : slice.contours) count += contour.points.size();
-  return count;
-}
-
 }  // namespace
 
 StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned threads,
@@ -51,7 +45,7 @@ StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned thre
     try {
       std::ifstream file = open(paths_[f]);
       for_each_slice(file, paths_[f].string(), threads, [&](Slice&& slice, LinePlace place) {
-        entries_.push_back({f, place, slice.z, count_points(slice)});
+        entries_.push_back({f, place, slice.z, point_count(slice)});
         const std::uint64_t done = before + place.offset + place.length;
         visit(slice, total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total));
       });

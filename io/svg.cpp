@@ -13,7 +13,7 @@
 
 #include "io/palette.h"
 #include "io/svg_path.h"
-#include "io/text.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

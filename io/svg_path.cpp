@@ -3,7 +3,7 @@
 
 #include <utility>
 
-#include "io/text.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 

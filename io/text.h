@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
-#include <charconv>
-#include <concepts>
 #include <cstddef>
 #include <string>
 #include <string_view>
 
 namespace loft::io {
-
-/// Appends a number with as few digits as give it back exactly; never depends on the locale.
-template <class Number>
-requires std::integral<Number> || std::floating_point<Number>
-void append_number(std::string& text, Number number) {
-  std::array<char, 32> digits;
-  const auto end = std::to_chars(digits.data(), digits.data() + digits.size(), number).ptr;
-  text.append(digits.data(), end);
-}
 
 /// The text without the byte order mark that some programs put in front.
 [[nodiscard]] constexpr std::string_view without_mark(std::string_view text) {

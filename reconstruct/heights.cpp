@@ -110,7 +110,7 @@ Defect empty_slice(const Region& region) {
           "go on"};
 }
 
-Defect unlinked_slices(const Region& lower, const Region& upper) {
+Defect unlinked_slices(const Region& lower) {
   return {DefectKind::unlinked_slices,
           lower.z,
           lower.slice,
@@ -118,9 +118,9 @@ Defect unlinked_slices(const Region& lower, const Region& upper) {
           {},
           {},
           0,
-          "no valid surface was found from here to slice " + std::to_string(upper.slice) +
-              ", whose contours nearly coincide with these; the shape is interrupted there. Make "
-              "the contours equal or more different"};
+          "no valid surface was found from here to the next slice above, whose contours nearly "
+          "coincide with these; the shape is interrupted there. Make the contours equal or more "
+          "different"};
 }
 
 InputError too_few_slices(const Region* only) {

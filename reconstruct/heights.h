@@ -35,8 +35,8 @@ struct Height {
 
 /// The warning that a region between others is empty.
 [[nodiscard]] Defect empty_slice(const Region& region);
-/// The warning that no tiles were found that link two regions.
-[[nodiscard]] Defect unlinked_slices(const Region& lower, const Region& upper);
+/// The warning that no tiles were found that link a region to the next one above.
+[[nodiscard]] Defect unlinked_slices(const Region& lower);
 /// What is missing where fewer than two regions have an area: none, if `only` is null.
 [[nodiscard]] InputError too_few_slices(const Region* only);
 

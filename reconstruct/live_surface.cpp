@@ -2,10 +2,9 @@
 #include "reconstruct/live_surface.h"
 
 #include <algorithm>
+#include <limits>
 #include <unordered_map>
 #include <utility>
-
-#include "reconstruct/defect.h"
 
 namespace loft {
 
@@ -16,45 +15,7 @@ using FaceHandle = Surface::FaceHandle;
 using VertexHandle = Surface::VertexHandle;
 using EdgeHandle = Surface::EdgeHandle;
 
-/// Finds the place of a contour edge among the loop vertices of its region.
-class RimIndex {
- public:
-  explicit RimIndex(const Region& region) : region_(region) {
-    places_.assign(region.points.size(), Origin::none);
-    nexts_.resize(region.loop_vertices.size());
-    others_.assign(region.loop_vertices.size(), Origin::none);
-    for (std::size_t l = 0; l < region.loop_count(); ++l) {
-      const auto loop = region.loop(l);
-      const std::uint32_t first = region.loop_starts[l];
-      for (std::uint32_t k = 0; k < loop.size(); ++k) {
-        nexts_[first + k] = k + 1 == loop.size() ? first : first + k + 1;
-        others_[first + k] = std::exchange(places_[loop[k]], first + k);
-      }
-    }
-  }
-
-  /// Of the edge between two points, from the one to the next on their loop; Origin::none for an
-  /// edge across a cap.
-  [[nodiscard]] std::uint32_t find(std::uint32_t from, std::uint32_t to) const {
-    std::uint32_t place = places_[from];
-    while (place != Origin::none && end(place) != to) place = others_[place];
-    return place;
-  }
-
- private:
-  [[nodiscard]] std::uint32_t end(std::uint32_t place) const {
-    return region_.loop_vertices[nexts_[place]];
-  }
-
-  const Region& region_;
-  std::vector<std::uint32_t> places_;  // of each point, one among the loop vertices
-  std::vector<std::uint32_t> nexts_;   // of each loop vertex, the one after it
-  std::vector<std::uint32_t> others_;  // of each loop vertex, another one with the same point
-};
-
 }  // namespace
-
-bool is_simple(const Region& region) { return region.loop_vertices.size() == region.points.size(); }
 
 class LiveSurface::Splicing {
  public:
@@ -63,9 +24,6 @@ class LiveSurface::Splicing {
 
   Spliced run() {
     sew();
-    static const Region nothing;
-    for (const RimmedSlice& slice : splice_.slices)
-      indices_.emplace_back(slice.region == nullptr ? nothing : *slice.region);
     list_faces();
     find_rims();
     if (result_.needs_below || result_.needs_above) return std::move(result_);
@@ -96,7 +54,7 @@ class LiveSurface::Splicing {
     if (splice_.layers.empty()) return;
     sewing_.add(std::move(splice_.layers), 1);
     sewing_.finish(1);
-    result_.is_plain = sewing_.doubled().empty() && sewing_.midpoints().empty();
+    result_.is_sewn_as_tiled = sewing_.doubled().empty() && sewing_.midpoints().empty();
     const VertexNumbers numbers = sewing_.numbers();
     vertices_.resize(numbers.final(VertexNumbers::midpoint_mark) + sewing_.midpoints().size());
   }
@@ -111,9 +69,6 @@ class LiveSurface::Splicing {
   [[nodiscard]] std::uint32_t sewn(std::uint32_t i) const {
     return static_cast<std::uint32_t>(splice_.first) + i;
   }
-  [[nodiscard]] std::uint32_t face_count(std::uint32_t layer) const {
-    return sewing_.face_count(layer) + static_cast<std::uint32_t>(sewing_.cuts_of(layer).size());
-  }
   [[nodiscard]] Made& made(HalfEdge h) {
     return made_[first_made_[h.layer - splice_.first] + h.face()];
   }
@@ -126,7 +81,7 @@ class LiveSurface::Splicing {
     for (std::uint32_t i = 0; i < layer_count(); ++i) {
       first_made_.push_back(static_cast<std::uint32_t>(made_.size()));
       const auto* present = splice_.present.empty() ? nullptr : splice_.present[i];
-      for (std::uint32_t f = 0; f < face_count(sewn(i)); ++f) {
+      for (std::uint32_t f = 0; f < sewing_.face_count_with_cuts(sewn(i)); ++f) {
         const bool is_present = present != nullptr && f < present->size();
         made_.push_back({sewn(i), f, is_present ? (*present)[f] : FaceHandle(), is_present});
       }
@@ -142,86 +97,21 @@ class LiveSurface::Splicing {
 
   // --- Rims ---
 
-  /// A half-edge that lies in a slice: which one, and where on its rim. A layer's faces run along
-  /// the loops of the slice below them, and against those of the slice above.
-  struct RimPlace {
-    std::uint32_t slice;
-    std::uint32_t place;
-    bool is_above;  // the face is above the slice
-  };
-
-  /// Finds the half-edges in slices. A rim is regular if each contour edge has one on either side.
   void find_rims() {
-    places_.resize(3 * made_.size(), none);
-    for (std::uint32_t i = 0; i < layer_count(); ++i) {
-      std::vector<std::uint32_t> lower_counts(edge_count(i));
-      std::vector<std::uint32_t> upper_counts(edge_count(i + 1));
-      const auto note = [&](std::uint32_t h, std::uint32_t slice, std::uint32_t place,
-                            bool is_above) {
-        if (place == none) return;
-        ++(is_above ? lower_counts : upper_counts)[place];
-        places_[3 * first_made_[i] + h] = static_cast<std::uint32_t>(rims_.size());
-        rims_.push_back({slice, place, is_above});
-      };
-      for_each_in_slices(
-          sewn(i),
-          [&](std::uint32_t h, std::uint32_t from, std::uint32_t to) {
-            note(h, i, indices_[i].find(from, to), true);
-          },
-          [&](std::uint32_t h, std::uint32_t from, std::uint32_t to) {
-            note(h, i + 1, indices_[i + 1].find(to, from), false);
-          });
-      const auto is_one = [this](std::uint32_t count) {
-        return count == 1 || (count == 0 && splice_.is_partial);
-      };
-      if (!std::ranges::all_of(lower_counts, is_one)) note_irregular(i);
-      if (!std::ranges::all_of(upper_counts, is_one)) note_irregular(i + 1);
+    rim_places_ =
+        RimPlaces(sewing_, static_cast<std::uint32_t>(splice_.first),
+                  static_cast<std::uint32_t>(splice_.last), splice_.slices, splice_.is_partial);
+    for (const std::uint32_t slice : rim_places_.irregular()) {
+      if (splice_.is_partial) result_.needs_below = true;
+      if (slice == 0 && splice_.has_below) result_.needs_below = true;
+      if (slice == layer_count() && splice_.has_above) result_.needs_above = true;
     }
-  }
-
-  [[nodiscard]] std::size_t edge_count(std::uint32_t slice) const {
-    const Region* region = splice_.slices[slice].region;
-    return region == nullptr ? 0 : region->loop_vertices.size();
-  }
-
-  void note_irregular(std::uint32_t slice) {
-    irregular_.push_back(slice);
-    if (splice_.is_partial) result_.needs_below = true;
-    if (slice == 0 && splice_.has_below) result_.needs_below = true;
-    if (slice == layer_count() && splice_.has_above) result_.needs_above = true;
-  }
-
-  /// Calls below(h, from, to) and above(h, from, to) for the half-edges that lie in a slice, by the
-  /// points of its region. Those are never cut, and their ends are contour points even where these
-  /// are doubled: so they are known by their places.
-  template <class Below, class Above>
-  void for_each_in_slices(std::uint32_t number, Below below, Above above) {
-    const Layer& layer = sewing_.layer(number);
-    const auto lower_count = static_cast<std::uint32_t>(layer.lower->points.size());
-    const auto contour_count = lower_count + static_cast<std::uint32_t>(layer.upper->points.size());
-    for (std::uint32_t h = 0; h < 3 * face_count(number); ++h) {
-      const auto a = sewing_.contour_node({number, h});
-      const auto b = sewing_.contour_node({number, Sewing::next(h)});
-      if (a >= contour_count || b >= contour_count || (a < lower_count) != (b < lower_count))
-        continue;
-      if (a < lower_count) {
-        below(h, a, b);
-      } else {
-        above(h, a - lower_count, b - lower_count);
-      }
-    }
-  }
-
-  [[nodiscard]] const RimPlace* rim_place(HalfEdge h) const {
-    const std::uint32_t place =
-        places_[3 * (first_made_[h.layer - splice_.first] + h.face()) + h.index % 3];
-    return place == none ? nullptr : &rims_[place];
   }
 
   /// The half-edge that is there already for a side in a slice, with a face on its other side that
   /// does not come; invalid if there is none.
   [[nodiscard]] Handle on_rim(HalfEdge h) const {
-    const RimPlace* place = rim_place(h);
+    const RimPlace* place = rim_places_.find(h);
     const HalfEdge mate = sewing_.mate(h);
     if (place == nullptr || (!mate.is_none() && comes(mate.layer))) return Handle();
     const Handle forward = splice_.slices[place->slice].rim->edges[place->place];
@@ -370,10 +260,8 @@ class LiveSurface::Splicing {
     const std::size_t v = surface_.n_vertices() + missing(vertices, live_.free_vertices_);
     const std::size_t e = surface_.n_edges() + missing(edges, live_.free_edges_);
     const std::size_t f = surface_.n_faces() + missing(faces, live_.free_faces_);
-    if (v > reserved(live_.vertex_room_, v) || e > reserved(live_.edge_room_, e) ||
-        f > reserved(live_.face_room_, f))
-      throw Error("more triangles than fit in memory");
-    surface_.reserve(live_.vertex_room_, live_.edge_room_, live_.face_room_);
+    surface_.reserve(enlarged(live_.vertex_room_, v), enlarged(live_.edge_room_, e),
+                     enlarged(live_.face_room_, f));
     const auto v_before = static_cast<int>(surface_.n_vertices());
     const auto e_before = static_cast<int>(surface_.n_edges());
     const auto f_before = static_cast<int>(surface_.n_faces());
@@ -383,7 +271,7 @@ class LiveSurface::Splicing {
     for (int i = static_cast<int>(f); i-- > f_before;) live_.free_faces_.emplace_back(i);
   }
 
-  static std::size_t reserved(std::size_t& room, std::size_t needed) {
+  static std::size_t enlarged(std::size_t& room, std::size_t needed) {
     if (needed > room) room = needed + needed / 8;
     return room;
   }
@@ -442,12 +330,12 @@ class LiveSurface::Splicing {
       }
     });
     for_each_half_edge([&](HalfEdge h) {
-      if (const RimPlace* place = rim_place(h); place != nullptr && !made(h).stays)
+      if (const RimPlace* place = rim_places_.find(h); place != nullptr && !made(h).stays)
         splice_.slices[place->slice].rim->edges[place->place] =
             place->is_above ? handle(h) : surface_.opposite_halfedge_handle(handle(h));
     });
     for (std::uint32_t i = 1; i < layer_count(); ++i) splice_.slices[i].rim->is_regular = true;
-    for (const std::uint32_t i : irregular_) splice_.slices[i].rim->is_regular = false;
+    for (const std::uint32_t i : rim_places_.irregular()) splice_.slices[i].rim->is_regular = false;
   }
 
   void make_edge(HalfEdge h, HalfEdge mate) {
@@ -560,25 +448,26 @@ class LiveSurface::Splicing {
             !surface_.is_boundary(surface_.opposite_halfedge_handle(h)));
   }
 
-  static constexpr std::uint32_t none = Origin::none;
-
   LiveSurface& live_;
   Surface& surface_;
   Splice splice_;
   Spliced result_;
   Sewing sewing_;
-  std::vector<RimIndex> indices_;  // of the slices
-  std::vector<Made> made_;         // the faces that come, layer by layer
+  RimPlaces rim_places_;
+  std::vector<Made> made_;  // the faces that come, layer by layer
   std::vector<std::uint32_t> first_made_;
-  std::vector<std::uint32_t> places_;  // of each half-edge that comes, in rims_, or none
-  std::vector<RimPlace> rims_;
-  std::vector<std::uint32_t> irregular_;           // slices
   std::vector<VertexHandle> vertices_;             // by the number that sewing gives
   std::unordered_map<int, std::uint32_t> owners_;  // numbers of the vertices that are there
   std::vector<Handle> handles_;                    // of each half-edge that comes
   std::vector<VertexHandle> touched_;              // corners of faces that went
   std::vector<Handle> loose_;  // sides of theirs, and the far sides of new edges
 };
+
+bool LiveSurface::has_room_for(std::size_t faces) const {
+  // OpenMesh's numbers are signed. A face has three edges, at worst its own.
+  constexpr std::size_t most = std::numeric_limits<int>::max();
+  return faces < most / 6 && surface_.n_halfedges() + 6 * faces < most;
+}
 
 Spliced LiveSurface::splice(Splice splice) { return Splicing(*this, std::move(splice)).run(); }
 

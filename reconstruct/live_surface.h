@@ -8,27 +8,11 @@
 #include <vector>
 
 #include "reconstruct/box3.h"
-#include "reconstruct/region.h"
+#include "reconstruct/rim.h"
 #include "reconstruct/sewing.h"
 #include "reconstruct/surface.h"
 
 namespace loft {
-
-/// The edges of the surface that lie in a slice.
-struct Rim {
-  /// For each loop vertex of the slice's region the half-edge from it to the next: it belongs to a
-  /// face above the slice, the opposite one to a face below it. Invalid where there is none yet.
-  std::vector<Surface::HalfedgeHandle> edges;
-  /// Whether that is all there is in the slice. Where slices hardly differ, more tiles may touch a
-  /// contour edge; then layers on both sides can only be sewn together.
-  bool is_regular = true;
-};
-
-/// A slice with its place in the surface.
-struct RimmedSlice {
-  const Region* region = nullptr;  ///< null: nothing, beyond a cap
-  Rim* rim = nullptr;
-};
 
 /// Layers to put into a surface in the place of some of its faces.
 struct Splice {
@@ -62,16 +46,13 @@ struct Spliced {
   /// The faces of each layer that came: those of its tiles in their order, then those that sewing
   /// has cut off.
   std::vector<std::vector<Surface::FaceHandle>> faces;
-  bool is_plain = true;  ///< sewing has neither doubled a vertex nor cut an edge
+  bool is_sewn_as_tiled = true;  ///< sewing has neither doubled a vertex nor cut an edge
   std::size_t vertices_added = 0;
   std::size_t vertices_removed = 0;
   std::size_t faces_added = 0;
   std::size_t faces_removed = 0;
   std::optional<Box3> bounds;  ///< of the faces that came or went
 };
-
-/// Whether every point of a region is on one loop, once.
-[[nodiscard]] bool is_simple(const Region& region);
 
 /// A surface that is changed in its place. Elements that go are marked as deleted, and used again
 /// for those that come next.
@@ -86,9 +67,12 @@ class LiveSurface {
   }
   [[nodiscard]] std::size_t face_count() const { return surface_.n_faces() - free_faces_.size(); }
 
+  /// Whether a splice may bring so many faces: handles are numbered by int.
+  [[nodiscard]] bool has_room_for(std::size_t faces) const;
+
   /// Law: afterwards the surface is the one that sewing all its layers at once would make. Handles
   /// of faces that stay, and of their edges and vertices, stay what they are.
-  /// Cost: that of sewing the layers.
+  /// Precondition: room for the faces of the layers that come. Cost: that of sewing the layers.
   Spliced splice(Splice splice);
 
   /// What faces that stay say of their slab.

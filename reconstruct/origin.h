@@ -25,6 +25,11 @@ struct Origin {
   friend bool operator==(const Origin&, const Origin&) = default;
 };
 
+/// Whether two origins are the same in their slices, whichever these are.
+[[nodiscard]] inline bool is_same_in_slice(const Origin& a, const Origin& b) {
+  return a.kind == b.kind && a.contour == b.contour && a.point == b.point;
+}
+
 /// What part of the surface a face belongs to.
 enum class FaceKind : std::uint8_t {
   sheet,       ///< between two slices, over a part that is inside one of them only

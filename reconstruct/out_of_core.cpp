@@ -182,7 +182,7 @@ class Work {
     for (std::size_t i = 0; i < slabs.size(); ++i) {
       const Region& lower = regions_[first + i];
       const Region& upper = regions_[first + i + 1];
-      if (!slabs[i].is_linked) unlinked_.push_back(unlinked_slices(lower, upper));
+      if (!slabs[i].is_linked) unlinked_.push_back(unlinked_slices(lower));
       layers.push_back({&lower, &upper, std::move(slabs[i]), static_cast<std::uint32_t>(first + i),
                         lower.slice});
     }

@@ -52,7 +52,7 @@ void add_beyond_ends(std::vector<Region>& regions) {
 void report_unlinked(std::span<const Region> regions, std::span<const TileSet> slabs,
                      std::vector<Defect>& repairs) {
   for (std::size_t i = 0; i < slabs.size(); ++i)
-    if (!slabs[i].is_linked) repairs.push_back(unlinked_slices(regions[i], regions[i + 1]));
+    if (!slabs[i].is_linked) repairs.push_back(unlinked_slices(regions[i]));
 }
 
 std::string in_lines(std::span<const std::string> problems) {

@@ -4,33 +4,19 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <vector>
 
 #include "cdt/point.h"
-#include "reconstruct/box3.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/link_report.h"
 #include "reconstruct/options.h"
 #include "reconstruct/slice.h"
 #include "reconstruct/snapshot.h"
 #include "reconstruct/surface.h"
+#include "reconstruct/surface_change.h"
 
 namespace loft {
 
-/// What an edit made of the surface.
-struct SurfaceChange {
-  std::vector<std::uint32_t> removed;  ///< ids of the slabs that are gone, in ascending order
-  std::vector<SlabInfo> added;         ///< those in their place, from low to high
-  std::size_t vertices_added = 0;
-  std::size_t vertices_removed = 0;
-  std::size_t faces_added = 0;
-  std::size_t faces_removed = 0;
-  std::optional<Box3> bounds;   ///< of all faces that came or went
-  std::vector<Defect> repairs;  ///< what was found in the edited slices and in the slabs added
-
-  [[nodiscard]] bool is_empty() const { return removed.empty() && added.empty(); }
-};
+struct LiveStack;
 
 /// The surface through a stack of slices that come, change and go one at a time.
 ///
@@ -44,7 +30,8 @@ struct SurfaceChange {
 /// of faces, vertices and edges that are not among what an edit removed stay valid. What is removed
 /// is marked as deleted (OpenMesh's status) and used again by later edits.
 ///
-/// Strong guarantee: an edit that throws has changed nothing.
+/// Strong guarantee: an edit that throws has changed nothing; but for std::bad_alloc while the mesh
+/// itself is changed, after which only destroying it is safe.
 ///
 /// Not for several threads at once; snapshots may be used in any thread.
 class Reconstruction {
@@ -56,7 +43,8 @@ class Reconstruction {
   Reconstruction& operator=(Reconstruction&&) noexcept;
 
   /// Adds a slice at any height. At a height that is there already the contours of both are one
-  /// slice from then on, as in a stack with two slices of one height; the repairs say so.
+  /// slice from then on, as in a stack with two slices of one height; the repairs say so
+  /// (DefectKind::merged_slices), until that slice is given anew.
   /// Throws InputError with all that is wrong with the slice: a coordinate that is not finite or of
   /// no usable size, a height too near to another one.
   /// Cost: that of making the slabs beside it, whatever the number of slices.
@@ -95,15 +83,14 @@ class Reconstruction {
   /// All slabs, from low to high.
   [[nodiscard]] std::vector<SlabInfo> slabs() const;
   /// What was found in slices and slabs, by height; as Reconstructed::repairs, with slices counted
-  /// from below.
+  /// from below. Cost: O(number of slices).
   [[nodiscard]] std::vector<Defect> repairs() const;
 
   /// The present state, for other threads and later. Cost: O(number of slabs), whatever their size.
   [[nodiscard]] Snapshot snapshot() const;
 
  private:
-  class Stack;
-  std::unique_ptr<Stack> stack_;
+  std::unique_ptr<LiveStack> stack_;
 };
 
 }  // namespace loft

@@ -573,6 +573,14 @@ Region clean(std::span<const ContourSource> contours, double z, const Filling& f
   return clean(contours, z, filling, repairs, memory);
 }
 
+bool is_same_in_slice(const Region& a, const Region& b) {
+  return a.points == b.points && a.loop_vertices == b.loop_vertices &&
+         a.loop_starts == b.loop_starts &&
+         std::ranges::equal(a.origins, b.origins, [](const Origin& p, const Origin& q) {
+           return is_same_in_slice(p, q);
+         });
+}
+
 void insert_loops(const Region& region, cdt::Triangulation& mesh, Point shift) {
   std::vector<Point> points;
   for (std::size_t i = 0; i < region.loop_count(); ++i) {

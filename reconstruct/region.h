@@ -32,6 +32,14 @@ struct Region {
   }
 };
 
+/// Whether every point of a region is on one loop, once.
+[[nodiscard]] inline bool is_simple(const Region& region) {
+  return region.loop_vertices.size() == region.points.size();
+}
+
+/// Whether two regions are the same in their slices, whichever these are.
+[[nodiscard]] bool is_same_in_slice(const Region& a, const Region& b);
+
 /// A contour on its way into cleaning: its points, and where it stands in the input.
 struct ContourSource {
   std::span<const cdt::Point> points;

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "reconstruct/links.h"
-#include "reconstruct/live_surface.h"
 
 namespace loft {
 
@@ -16,10 +15,7 @@ constexpr std::uint32_t none = Origin::none;
 
 bool is_same_loop(const Region& a, std::uint32_t i, const Region& b, std::uint32_t j) {
   const auto is_same_vertex = [&](std::uint32_t v, std::uint32_t w) {
-    const Origin& p = a.origins[v];
-    const Origin& q = b.origins[w];
-    return a.points[v] == b.points[w] && p.kind == q.kind && p.contour == q.contour &&
-           p.point == q.point;
+    return a.points[v] == b.points[w] && is_same_in_slice(a.origins[v], b.origins[w]);
   };
   return std::ranges::equal(a.loop(i), b.loop(j), is_same_vertex);
 }

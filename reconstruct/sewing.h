@@ -68,6 +68,10 @@ class Sewing {
   [[nodiscard]] const Layer& layer(std::uint32_t layer) const { return at(layer).layer; }
   /// Faces that a layer had when it was added.
   [[nodiscard]] std::uint32_t face_count(std::uint32_t layer) const { return at(layer).face_count; }
+  /// With those that midpoints have cut off.
+  [[nodiscard]] std::uint32_t face_count_with_cuts(std::uint32_t layer) const {
+    return face_count(layer) + static_cast<std::uint32_t>(cuts_of(layer).size());
+  }
   [[nodiscard]] std::uint64_t first_face(std::uint32_t layer) const { return at(layer).first_face; }
   /// Number of the first vertex of the slice that a layer stands on, and of its first inner vertex.
   [[nodiscard]] std::uint32_t first_vertex(std::uint32_t layer) const { return at(layer).lower; }

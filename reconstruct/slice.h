@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,5 +25,12 @@ struct Slice {
 
   friend bool operator==(const Slice&, const Slice&) = default;
 };
+
+/// The points of all its contours.
+[[nodiscard]] inline std::size_t point_count(const Slice& slice) {
+  std::size_t count = 0;
+  for (const Contour& contour : slice.contours) count += contour.points.size();
+  return count;
+}
 
 }  // namespace loft

@@ -51,7 +51,8 @@ function(test_consumer name target)
 endfunction()
 test_consumer(find_package solid -DCMAKE_PREFIX_PATH=${prefix})
 test_consumer(subdirectory plane -DLOFT_FOLDER=${root})
-set_tests_properties(install.find_package PROPERTIES FIXTURES_REQUIRED installed)
+test_consumer(headers all_headers -DCMAKE_PREFIX_PATH=${prefix})
+set_tests_properties(install.find_package install.headers PROPERTIES FIXTURES_REQUIRED installed)
 
 # The generated stacks in samples/data are what make_stacks makes.
 if(TARGET make_stacks)

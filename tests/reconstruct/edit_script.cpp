@@ -105,6 +105,15 @@ std::string broken(const Surface& surface) {
 
 std::string difference(const Reconstruction& live, const Options& options) {
   const Content is = content(live.surface());
+  const auto other_repairs = [&](const std::vector<Defect>& expected) -> std::string {
+    std::vector<Defect> repairs = live.repairs();
+    // Those slices are one in what was built at once.
+    std::erase_if(repairs, [](const Defect& one) { return one.kind == DefectKind::merged_slices; });
+    const bool are_same = std::ranges::equal(repairs, expected, [](const auto& a, const auto& b) {
+      return a.kind == b.kind && describe(a) == describe(b);
+    });
+    return are_same ? "" : "other repairs";
+  };
   const auto compared = [&](const Surface& expected) -> std::string {
     std::string words = difference(is, content(expected));
     if (!words.empty()) return "live: " + words;
@@ -112,7 +121,9 @@ std::string difference(const Reconstruction& live, const Options& options) {
     return words.empty() ? "" : "snapshot: " + words;
   };
   try {
-    return compared(reconstruct(live.slices(), options).surface);
+    const Reconstructed expected = reconstruct(live.slices(), options);
+    const std::string words = compared(expected.surface);
+    return words.empty() ? other_repairs(expected.repairs) : words;
   } catch (const InputError&) {
     return compared(Surface());
   }

@@ -15,7 +15,8 @@ namespace loft::edits {
 [[nodiscard]] std::string broken(const Surface& surface);
 
 /// How a live surface differs from the one built at once from the same slices; empty if they have
-/// the same vertices and the same faces, of the same origin and kind. Nothing to compare is fine.
+/// the same vertices and the same faces, of the same origin and kind, and the same repairs but for
+/// slices that were merged. Nothing to compare is fine.
 [[nodiscard]] std::string difference(const Reconstruction& live, const Options& options);
 
 /// Random edits of a stack, all kinds of them: inserted in any order, at heights that are taken,

@@ -172,6 +172,42 @@ TEST(Reconstruction, BadEditsSayWhatIsWrong) {
   EXPECT_THROW(Reconstruction({.simplify = 1}), std::invalid_argument);
 }
 
+std::vector<DefectKind> kinds(const std::vector<Defect>& repairs) {
+  std::vector<DefectKind> all;
+  for (const Defect& repair : repairs) all.push_back(repair.kind);
+  return all;
+}
+
+TEST(Reconstruction, SliceAtAHeightThatIsTakenIsReportedUntilItIsGivenAnew) {
+  using testing::ElementsAre;
+  Reconstruction live;
+  live.insert(Slice{1, {stacks::circle(5, 1)}});
+  live.insert(Slice{2, {stacks::circle(5, 1)}});
+  const Slice more{2, {stacks::circle(5, 1, {9, 9})}};
+  EXPECT_THAT(kinds(live.insert(more).repairs), ElementsAre(DefectKind::merged_slices));
+  ASSERT_THAT(kinds(live.repairs()), ElementsAre(DefectKind::merged_slices));
+  EXPECT_EQ(live.repairs()[0].slice, 1U);
+  EXPECT_EQ(live.find(2)->contours.size(), 2U);
+  live.insert(Slice{3, {stacks::circle(5, 1)}});
+  EXPECT_THAT(kinds(live.repairs()), ElementsAre(DefectKind::merged_slices));
+  live.replace(2, more);
+  EXPECT_TRUE(live.repairs().empty());
+}
+
+TEST(Reconstruction, EmptySliceIsReportedWhereTheShapeIsInterrupted) {
+  using testing::ElementsAre;
+  Reconstruction live;
+  for (const double z : {1, 2}) live.insert(Slice{z, {stacks::circle(5, 1)}});
+  EXPECT_TRUE(live.insert(Slice{3, {}}).repairs.empty());  // the shape ends below it
+  for (const double z : {4, 5}) live.insert(Slice{z, {stacks::circle(5, 1)}});
+  ASSERT_THAT(kinds(live.repairs()), ElementsAre(DefectKind::empty_slice));
+  EXPECT_EQ(live.repairs()[0].slice, 2U);
+  EXPECT_THAT(kinds(live.replace(2, Slice{2, {}}).repairs), ElementsAre(DefectKind::empty_slice));
+  EXPECT_THAT(kinds(live.repairs()), ElementsAre(DefectKind::empty_slice, DefectKind::empty_slice));
+  live.remove(1);
+  EXPECT_TRUE(live.repairs().empty());
+}
+
 TEST(Reconstruction, SnapshotsStayAsTheyWere) {
   Reconstruction live;
   for (const Slice& slice : stacks::sphere(6, 12)) live.insert(slice);

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/gaps.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "reconstruct/link_orders.h"
+#include "reconstruct/links.h"
+#include "reconstruct/refine.h"
+#include "reconstruct/retile.h"
+
+namespace loft {
+
+Gaps::Gaps(LiveStack& stack, std::vector<Station*> line, bool is_bottom, bool is_top)
+    : stack_(stack), line_(std::move(line)) {
+  for (std::size_t i = 0; i + 1 < line_.size(); ++i)
+    gaps_.push_back({line_[i], line_[i + 1], is_bottom && i == 0, is_top && i + 2 == line_.size()});
+  find_present(is_bottom, is_top);
+}
+
+void Gaps::make() {
+  for (Gap& gap : gaps_) tile(gap);
+  for (std::size_t i = 0; i < gaps_.size(); ++i) link(i);
+  for (std::size_t i = 0; i < gaps_.size(); ++i) bend(i);
+  for (Gap& gap : gaps_) freeze(gap);
+}
+
+const std::vector<std::uint32_t>* Gaps::matches(double z) const {
+  const auto found = matches_.find(z);
+  return found == matches_.end() ? nullptr : &found->second;
+}
+
+void Gaps::find_present(bool is_bottom, bool is_top) {
+  if (line_.empty()) {
+    for (const auto& [z, slab] : stack_.slabs) gone_.push_back(z);
+    return;
+  }
+  const double low = line_.front()->region->z;
+  const double high = line_.back()->region->z;
+  auto slab = is_bottom ? stack_.slabs.begin() : stack_.slabs.lower_bound(low);
+  for (; slab != stack_.slabs.end() && (is_top || slab->first < high); ++slab) {
+    auto& [z, there] = *slab;
+    const auto gap =
+        std::ranges::lower_bound(gaps_, z, {}, [](const Gap& one) { return one.lower->region->z; });
+    if (gap == gaps_.end() || gap->lower->region != there.frozen->lower ||
+        gap->upper->region != there.frozen->upper) {
+      gone_.push_back(z);
+    } else {
+      gap->there = &there;
+    }
+  }
+}
+
+void Gaps::tile(Gap& gap) {
+  if (gap.there != nullptr) return;
+  gap.made.emplace();
+  if (!tile_in_part(gap)) tile_by_overlap(gap);
+  gap.made->found = std::make_shared<const Pieces>(*gap.pieces);
+}
+
+/// Where the slab was there, but for some loops of one of its slices.
+bool Gaps::tile_in_part(Gap& gap) {
+  const Options& options = stack_.options;
+  if (options.smooth || options.max_edge || options.target_edge || gap.is_first || gap.is_last)
+    return false;
+  const auto found = stack_.slabs.find(gap.lower->region->z);
+  if (found == stack_.slabs.end()) return false;
+  LiveSlab& before = found->second;
+  const FrozenSlab& old = *before.frozen;
+  const bool is_lower_same = old.lower == gap.lower->region;
+  if (old.info.high != gap.upper->region->z || !before.is_sewn_as_tiled || !before.links.empty() ||
+      old.has_bottom_cap || old.has_top_cap || is_lower_same == (old.upper == gap.upper->region))
+    return false;
+  const Station& changed = is_lower_same ? *gap.upper : *gap.lower;
+  const auto& matches = match(changed, is_lower_same ? *old.upper : *old.lower);
+  auto retiled = retile({*old.lower, *old.upper, *old.tiles, *old.pieces, *gap.lower->region,
+                         *gap.upper->region, is_lower_same ? Level::upper : Level::lower, matches},
+                        options, stack_.workspace);
+  if (!retiled) return false;
+  gap.before = &before;
+  gap.kept = std::move(retiled->kept);
+  gap.dropped = std::move(retiled->gone);
+  gap.tiles = std::move(retiled->tiles);
+  gap.pieces = std::move(retiled->pieces);
+  return true;
+}
+
+/// The loops of a slice that it had before. Its edges there stay, as long as a face is at them.
+const std::vector<std::uint32_t>& Gaps::match(const Station& station, const Region& old) {
+  const auto [found, is_new] = matches_.try_emplace(station.region->z);
+  if (is_new) found->second = match_loops(*station.region, old);
+  return found->second;
+}
+
+void Gaps::tile_by_overlap(Gap& gap) {
+  gap.before = nullptr;
+  OrderedTiles tiled =
+      tile_by_orders(*gap.lower->region, *gap.upper->region, stack_.options, {}, stack_.workspace);
+  gap.tiles = std::move(tiled.tiles);
+  gap.pieces = std::move(tiled.pieces);
+}
+
+/// Whether all that a slab looks at is known: its neighbours, if it has any.
+bool Gaps::has_neighbours(std::size_t i) const {
+  return (i > 0 || gaps_[i].is_first) && (i + 1 < gaps_.size() || gaps_[i].is_last);
+}
+
+SlabPieces Gaps::view(std::size_t i) const {
+  if (i >= gaps_.size()) return {};
+  return {gaps_[i].found().get(), gaps_[i].height()};
+}
+
+void Gaps::link(std::size_t i) {
+  Gap& gap = gaps_[i];
+  if (!has_neighbours(i)) return;
+  std::vector<EndLink> links;
+  if (stack_.options.link == LinkRule::automatic)
+    links = match_ends(i == 0 ? SlabPieces() : view(i - 1), view(i), view(i + 1),
+                       stack_.options.max_shift, {});
+  if (gap.there != nullptr) {
+    if (links == gap.there->links) return;
+    gap.made.emplace();
+    gap.made->found = gap.there->found;
+    tile_by_overlap(gap);
+  } else if (gap.before != nullptr && !links.empty()) {
+    tile_by_overlap(gap);  // the pieces are the same, and in the same order
+  }
+  link_ends(*gap.lower->region, *gap.upper->region, *gap.tiles, *gap.pieces, links);
+  gap.made->links = std::move(links);
+}
+
+Gaps::Shapes Gaps::shapes_around(std::size_t i) const {
+  Shapes shapes;
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (i + k >= 1 && i + k - 1 < line_.size()) shapes[k] = line_[i + k - 1]->shape;
+  return shapes;
+}
+
+/// Brings the tiles of a slab into their final shape.
+void Gaps::bend(std::size_t i) {
+  Gap& gap = gaps_[i];
+  const Options& options = stack_.options;
+  const Shapes shapes = shapes_around(i);
+  if (!gap.made) {
+    if (!options.smooth || !has_neighbours(i) || shapes == gap.there->shapes) return;
+    gap.made.emplace();
+    gap.made->found = gap.there->found;
+    gap.made->links = gap.there->links;
+  }
+  const bool is_tiled = gap.tiles.has_value();
+  auto linked =
+      is_tiled ? std::make_shared<const TileSet>(std::move(*gap.tiles)) : gap.there->frozen->linked;
+  auto pieces =
+      is_tiled ? std::make_shared<const Pieces>(std::move(*gap.pieces)) : gap.there->frozen->pieces;
+  if (gap.made->found != nullptr && is_tiled && gap.made->links.empty())
+    pieces = gap.made->found;  // the same
+  auto tiles = linked;
+  const Region& lower = *gap.lower->region;
+  const Region& upper = *gap.upper->region;
+  if (options.smooth) {
+    Surroundings around{};
+    for (std::size_t k = 0; k < around.size(); ++k) around[k] = shapes[k].get();
+    tiles = std::make_shared<const TileSet>(smooth(lower, upper, around, *pieces, *linked));
+  }
+  if (options.max_edge || options.target_edge)
+    tiles = std::make_shared<const TileSet>(refine(lower, upper, *tiles, options));
+  gap.made->shapes = shapes;
+  FrozenSlab frozen{{0, lower.z, upper.z}, gap.lower->region, gap.upper->region};
+  frozen.volume = loft::volume(lower, upper, *tiles);
+  frozen.tiles = std::move(tiles);
+  frozen.linked = std::move(linked);
+  frozen.pieces = std::move(pieces);
+  gap.made->frozen = std::make_shared<const FrozenSlab>(std::move(frozen));
+}
+
+/// Gives a slab that is new or changed its number.
+void Gaps::freeze(Gap& gap) {
+  const bool is_capped = stack_.options.cap == Cap::flat;
+  const bool has_bottom = is_capped && gap.is_first;
+  const bool has_top = is_capped && gap.is_last;
+  if (!gap.made) {
+    const FrozenSlab& there = *gap.there->frozen;
+    if (there.has_bottom_cap == has_bottom && there.has_top_cap == has_top) return;
+    gap.keeps_tiles = true;
+    gap.made.emplace();
+    gap.made->frozen = gap.there->frozen;
+    gap.made->found = gap.there->found;
+    gap.made->links = gap.there->links;
+    gap.made->shapes = gap.there->shapes;
+    gap.made->is_sewn_as_tiled = gap.there->is_sewn_as_tiled;
+  }
+  auto frozen = std::make_shared<FrozenSlab>(*gap.made->frozen);
+  frozen->info.id = stack_.next_id++;
+  frozen->has_bottom_cap = has_bottom;
+  frozen->has_top_cap = has_top;
+  gap.made->frozen = std::move(frozen);
+}
+
+}  // namespace loft

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/live_stack.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace loft {
+
+std::optional<std::pair<Stations::iterator, Stations::iterator>> LiveStack::range() {
+  const auto is_filled = [](const auto& station) { return !station.second.region->is_empty(); };
+  const auto first = std::find_if(stations.begin(), stations.end(), is_filled);
+  if (first == stations.end()) return {};
+  auto last = std::prev(stations.end());
+  while (!is_filled(*last)) --last;
+  if (first == last) return {};
+  return std::pair{first, last};
+}
+
+}  // namespace loft

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/stack_edit.h"
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+#include <memory>
+#include <span>
+#include <utility>
+
+#include "reconstruct/exchange.h"
+#include "reconstruct/gaps.h"
+#include "reconstruct/heights.h"
+#include "reconstruct/number_text.h"
+#include "reconstruct/out_of_core.h"
+
+namespace loft {
+
+namespace {
+
+Defect merged_slices(double z, std::uint32_t slice) {
+  return {DefectKind::merged_slices,
+          z,
+          slice,
+          {},
+          {},
+          {},
+          0,
+          "came at a height where there was a slice already; merged with it"};
+}
+
+/// One edit on its way: what it makes is made first, then taken over.
+class StackEdit {
+ public:
+  StackEdit(LiveStack& stack, std::vector<SliceEdit> edits)
+      : stack_(stack), edits_(std::move(edits)) {}
+
+  SurfaceChange run() {
+    prepare();
+    if (is_quiet_) {
+      exchange_slices();
+    } else {
+      change_surface();
+    }
+    note_empty_slices();
+    return std::move(change_);
+  }
+
+ private:
+  void change_surface() {
+    std::optional<Gaps> gaps;
+    try {
+      exchange_slices();
+      gaps.emplace(list_gaps());
+      gaps->make();
+      check_room(*gaps);
+      report(*gaps);
+    } catch (...) {
+      take_back();
+      throw;
+    }
+    exchange(stack_, *gaps, keep_rims(*gaps), change_);
+    stack_.ends = ends_;
+  }
+
+  void check_room(Gaps& gaps) const {
+    std::size_t faces = 0;
+    for (const Gap& gap : gaps.all()) {
+      const FrozenSlab& slab = *(gap.made ? *gap.made : *gap.there).frozen;
+      faces += slab.tiles->tiles.size() + slab.lower->points.size() + slab.upper->points.size();
+    }
+    if (!stack_.surface.has_room_for(faces))
+      throw Error("more triangles than one mesh can number; cut the stack into parts");
+  }
+
+  void report(Gaps& gaps) {
+    for (const Gap& gap : gaps.all()) {
+      if (!gap.made) continue;
+      const FrozenSlab& slab = *gap.made->frozen;
+      change_.added.push_back(slab.info);
+      if (!slab.linked->is_linked) change_.repairs.push_back(unlinked_slices(*slab.lower));
+    }
+  }
+
+  void note_empty_slices() {
+    if (!stack_.ends) return;
+    for (const SliceEdit& edit : edits_) {
+      const auto station = stack_.stations.find(edit.z);
+      if (station == stack_.stations.end() || !station->second.region->is_empty()) continue;
+      if (edit.z > stack_.ends->first && edit.z < stack_.ends->second)
+        change_.repairs.push_back(empty_slice(*station->second.region));
+    }
+  }
+
+  // --- Slices ---
+
+  void prepare() {
+    std::vector<Defect> fatal;
+    for (const SliceEdit& edit : edits_) {
+      if (!edit.slice) continue;
+      std::ranges::move(find_unusable(*edit.slice, stack_.next_number), std::back_inserter(fatal));
+      check_gap(edit.z, fatal);
+    }
+    if (!fatal.empty()) throw InputError(std::move(fatal));
+    for (SliceEdit& edit : edits_) {
+      if (edit.slice) {
+        stations_.push_back(make_station(std::move(edit)));
+      } else {
+        is_quiet_ = false;
+        stations_.emplace_back();
+      }
+    }
+  }
+
+  [[nodiscard]] bool goes(double z) const {
+    return std::ranges::any_of(edits_,
+                               [&](const SliceEdit& edit) { return edit.z == z && !edit.slice; });
+  }
+
+  void check_gap(double z, std::vector<Defect>& fatal) const {
+    const auto note = [&](double other) {
+      fatal.push_back({DefectKind::slices_too_near,
+                       z,
+                       stack_.next_number,
+                       {},
+                       {},
+                       {},
+                       0,
+                       "is nearer to the slice at z = " + exact(other) +
+                           " than rounding allows at that height; give heights from an origin "
+                           "nearby, or replace that slice"});
+    };
+    const auto above = stack_.stations.upper_bound(z);
+    if (above != stack_.stations.end() && !goes(above->first) && are_too_near(z, above->first))
+      note(above->first);
+    const auto at = stack_.stations.lower_bound(z);
+    if (at == stack_.stations.begin()) return;
+    const double below = std::prev(at)->first;
+    if (!goes(below) && are_too_near(below, z)) note(below);
+  }
+
+  [[nodiscard]] Station make_station(SliceEdit edit) {
+    Station station;
+    station.slice = std::make_shared<const Slice>(std::move(*edit.slice));
+    const auto there = stack_.stations.find(edit.z);
+    const bool is_known = there != stack_.stations.end();
+    station.number = is_known ? there->second.number : stack_.next_number;
+    if (edit.is_merged) station.repairs.push_back(merged_slices(edit.z, station.number));
+    const Slice* part = station.slice.get();
+    station.region =
+        std::make_shared<const Region>(clean(Height{edit.z, {station.number}}, std::span(&part, 1),
+                                             stack_.options, station.repairs, stack_.memory));
+    std::ranges::copy(station.repairs, std::back_inserter(change_.repairs));
+    if (is_known && is_same_in_slice(*there->second.region, *station.region)) {
+      station.region = there->second.region;
+      station.shape = there->second.shape;
+      station.rim = there->second.rim;
+      return station;
+    }
+    is_quiet_ = false;
+    if (!is_known) ++stack_.next_number;
+    add_shape(station);
+    station.rim.edges.resize(station.region->loop_vertices.size());
+    return station;
+  }
+
+  void add_shape(Station& station) const {
+    if (stack_.options.smooth) station.shape = std::make_shared<const SliceShape>(*station.region);
+  }
+
+  void exchange_slices() {
+    old_below_ = stack_.below;
+    old_above_ = stack_.above;
+    old_.reserve(edits_.size());
+    for (std::size_t i = 0; i < edits_.size(); ++i) {
+      const double z = edits_[i].z;
+      old_.push_back(stack_.stations.extract(z));
+      if (stations_[i].slice != nullptr) stack_.stations.emplace(z, std::move(stations_[i]));
+    }
+  }
+
+  void take_back() {
+    for (std::size_t i = 0; i < old_.size(); ++i) stack_.stations.erase(edits_[i].z);
+    for (auto& node : old_)
+      if (!node.empty()) stack_.stations.insert(std::move(node));
+    stack_.below = std::move(old_below_);
+    stack_.above = std::move(old_above_);
+  }
+
+  // --- Their surroundings ---
+
+  /// The slabs near the edit; those that are there and are not among them go.
+  Gaps list_gaps() {
+    const auto range = stack_.range();
+    if (!range) return {stack_, {}, true, true};
+    auto [first, last] = *range;
+    double low = edits_.front().z;
+    double high = low;
+    const auto widen = [&](double z) {
+      low = std::min(low, z);
+      high = std::max(high, z);
+    };
+    for (const SliceEdit& edit : edits_) widen(edit.z);
+    if (stack_.ends) {
+      if (stack_.ends->first != first->first) widen(std::min(stack_.ends->first, first->first));
+      if (stack_.ends->first != first->first) widen(std::max(stack_.ends->first, first->first));
+      if (stack_.ends->second != last->first) widen(std::min(stack_.ends->second, last->first));
+      if (stack_.ends->second != last->first) widen(std::max(stack_.ends->second, last->first));
+    } else {
+      widen(first->first);
+      widen(last->first);
+    }
+    ends_ = {first->first, last->first};
+
+    constexpr int reach = 6;  // slices on either side that may matter
+    auto from = stack_.stations.lower_bound(std::clamp(low, first->first, last->first));
+    const auto is_irregular = [](const auto& at) { return !at->second.rim.is_regular; };
+    for (int i = 0; (i < reach || is_irregular(from)) && from != first; ++i) --from;
+    auto to = stack_.stations.upper_bound(std::clamp(high, first->first, last->first));
+    if (to != stack_.stations.begin()) --to;
+    for (int i = 0; (i < reach || is_irregular(to)) && to != last; ++i) ++to;
+    const bool is_bottom = from == first;
+    const bool is_top = to == last;
+
+    const bool is_dome = stack_.options.cap == Cap::dome;
+    if (is_dome) round_off(first, last);
+    std::vector<Station*> line;
+    if (is_dome && is_bottom) line.push_back(&stack_.below);
+    for (auto station = from;; ++station) {
+      line.push_back(&station->second);
+      if (station == to) break;
+    }
+    if (is_dome && is_top) line.push_back(&stack_.above);
+    return {stack_, std::move(line), is_bottom, is_top};
+  }
+
+  /// What is beyond the ends, for domes.
+  void round_off(Stations::iterator first, Stations::iterator last) {
+    const auto update = [&](Station& station, const Region& end, const Region& before) {
+      Region region = beyond(end, before);
+      if (station.region != nullptr && station.region->z == region.z) return;
+      station = {};
+      station.region = std::make_shared<const Region>(std::move(region));
+      add_shape(station);
+    };
+    update(stack_.below, *first->second.region, *std::next(first)->second.region);
+    update(stack_.above, *last->second.region, *std::prev(last)->second.region);
+  }
+
+  /// The edges of contours that a new slice has from the one before, as far as faces stay there.
+  [[nodiscard]] std::vector<Rim*> keep_rims(const Gaps& gaps) {
+    std::vector<Rim*> rims;
+    for (std::size_t i = 0; i < edits_.size(); ++i) {
+      const auto* matches = gaps.matches(edits_[i].z);
+      if (matches == nullptr || old_[i].empty()) continue;
+      const Station& old = old_[i].mapped();
+      Station& now = stack_.stations.find(edits_[i].z)->second;
+      for (std::uint32_t l = 0; l < matches->size(); ++l) {
+        if ((*matches)[l] == Origin::none) continue;
+        const auto from = old.rim.edges.begin() + old.region->loop_starts[(*matches)[l]];
+        std::copy_n(from, now.region->loop(l).size(),
+                    now.rim.edges.begin() + now.region->loop_starts[l]);
+      }
+      rims.push_back(&now.rim);
+    }
+    return rims;
+  }
+
+  LiveStack& stack_;
+  std::vector<SliceEdit> edits_;
+  bool is_quiet_ = true;           // no region changes
+  std::vector<Station> stations_;  // that come
+  std::vector<Stations::node_type> old_;
+  Station old_below_;
+  Station old_above_;
+  std::optional<std::pair<double, double>> ends_;
+  SurfaceChange change_;
+};
+
+}  // namespace
+
+SurfaceChange apply(LiveStack& stack, std::vector<SliceEdit> edits) {
+  return StackEdit(stack, std::move(edits)).run();
+}
+
+}  // namespace loft

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "reconstruct/live_stack.h"
+#include "reconstruct/slice.h"
+#include "reconstruct/surface_change.h"
+
+namespace loft {
+
+/// What is at a height from then on, if anything.
+struct SliceEdit {
+  double z = 0;
+  std::optional<Slice> slice = {};
+  bool is_merged = false;  ///< with contours that were there
+};
+
+/// Applies edits, each at another height, as one. Strong guarantee: throws InputError with all that
+/// is wrong before anything has changed. Cost: that of the slabs beside the slices.
+SurfaceChange apply(LiveStack& stack, std::vector<SliceEdit> edits);
+
+}  // namespace loft

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "reconstruct/box3.h"
+#include "reconstruct/defect.h"
+#include "reconstruct/snapshot.h"
+
+namespace loft {
+
+/// What an edit made of the surface.
+struct SurfaceChange {
+  std::vector<std::uint32_t> removed;  ///< ids of the slabs that are gone, in ascending order
+  std::vector<SlabInfo> added;         ///< those in their place, from low to high
+  std::size_t vertices_added = 0;
+  std::size_t vertices_removed = 0;
+  std::size_t faces_added = 0;
+  std::size_t faces_removed = 0;
+  std::optional<Box3> bounds;   ///< of all faces that came or went
+  std::vector<Defect> repairs;  ///< what was found in the edited slices and in the slabs added
+
+  [[nodiscard]] bool is_empty() const { return removed.empty() && added.empty(); }
+};
+
+}  // namespace loft
