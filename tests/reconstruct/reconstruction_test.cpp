@@ -13,6 +13,7 @@
 
 #include "reconstruct/measure.h"
 #include "tests/reconstruct/edit_script.h"
+#include "tests/reconstruct/random_pairs.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 
@@ -206,6 +207,18 @@ TEST(Reconstruction, EmptySliceIsReportedWhereTheShapeIsInterrupted) {
   EXPECT_THAT(kinds(live.repairs()), ElementsAre(DefectKind::empty_slice, DefectKind::empty_slice));
   live.remove(1);
   EXPECT_TRUE(live.repairs().empty());
+}
+
+TEST(Reconstruction, SlicesThatAreLeftApartAreReported) {
+  const stacks::Pair pair =
+      stacks::random_pair(12412);  // one of few between which nothing is valid
+  const Options options{.fill = pair.fill};
+  Reconstruction live(options);
+  live.insert(pair.slices[0]);
+  const SurfaceChange change = live.insert(pair.slices[1]);
+  EXPECT_THAT(kinds(change.repairs), testing::Contains(DefectKind::unlinked_slices));
+  EXPECT_THAT(kinds(live.repairs()), testing::Contains(DefectKind::unlinked_slices));
+  EXPECT_EQ(difference(live, options), "");
 }
 
 TEST(Reconstruction, SnapshotsStayAsTheyWere) {

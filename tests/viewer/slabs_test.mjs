@@ -37,6 +37,14 @@ test('A slab stays until all that replace it are there, which then come at once'
   assert.deepEqual(picture.ids, ['0-2', '0-3']);
 });
 
+test('Slabs beside others touch them and have their label', () => {
+  const picture = new Picture();
+  const [, , upper] = picture.change([], [slab('0-1', 0, 1), slab('0-2', 1, 2), slab('0-3', 2, 3),
+                                          slab('0-4', 3, 4), slab('1-1', 1, 2, 'b')]);
+  const beside = picture.slabs.beside([upper]);
+  assert.deepEqual(beside.map(({ id }) => id), ['0-2', '0-4']);
+});
+
 test('A slab that nothing replaces goes at once', () => {
   const picture = new Picture();
   picture.change([], [slab('0-1', 0, 1), slab('0-2', 1, 2)]).forEach((one) => picture.arrive(one));

@@ -67,6 +67,26 @@ test('replacing a slice changes the volume and the picture', async () => {
   assert.ok(difference(first, await viewer.picture()) > 500);
 });
 
+test('what is beside a change looks as on a new page', async () => {
+  await loft.post(square(0, 5), square(4, 5), square(8, 5), square(12, 5));
+  await viewer.waitForSlabs(3);
+  await loft.post(square(12, 3, 'replace'));  // the normals of the slab below change, too
+  await viewer.waitForText('edits', '5');
+  const fitted = async (page) => {
+    await page.waitForSlabs(3);
+    await page.page.locator('#canvas').focus();
+    await page.page.keyboard.press('f');
+    await page.settle();
+    return page.picture();
+  };
+  const other = await Viewer.open(browser, loft.url);
+  const expected = await fitted(other);
+  await other.close();
+  for (let i = 0; i < 100; ++i)
+    if (difference(await fitted(viewer), expected) < 10) return;
+  assert.fail('it goes on looking as before');
+});
+
 test('a lost connection is told, and mends itself', async () => {
   await loft.post(square(0, 5), square(4, 6), square(8, 5));
   await viewer.waitForSlabs(2);

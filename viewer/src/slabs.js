@@ -39,6 +39,13 @@ export class Slabs {
   }
   has(id) { return this.#live.has(id); }
   isPending(slab) { return this.#pending.has(slab); }
+  isInPlace(slab) { return slab.isShown && this.#live.get(slab.id) === slab; }
+  // Those that touch one of some others.
+  beside(slabs) {
+    const isBeside = (other) => slabs.some(({ label, low, high }) => label === other.label &&
+                                                (low === other.high || high === other.low));
+    return [...this.#live.values()].filter((other) => isBeside(other) && !slabs.includes(other));
+  }
   *shown() {
     for (const slab of this.#live.values()) if (slab.isShown) yield slab;
     yield* this.#retired;

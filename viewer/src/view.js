@@ -15,6 +15,7 @@ import { Stage } from './scene.js';
 import { Surroundings } from './surroundings.js';
 
 const settleEvery = 100;  // ms
+const quiet = 200;        // ms without an edit
 
 export class View {
   #panel;
@@ -26,6 +27,8 @@ export class View {
   #surroundings;
   #chosen;             // the slice
   #picked;             // contour and point
+  #worn = new Set();   // slabs with normals that are no longer right
+  #renewal;            // timer
   #loader = new Loader();
   #frame;
   #unit = '';
@@ -83,7 +86,9 @@ export class View {
     for (const z of edit.slices_removed) this.#lines.delete(z);
     for (const z of edit.slices_added) this.#lines.delete(z);
     this.#contours.change(edit.slices_removed, edit.slices_added);
-    this.#fetch(this.#slabs.change(edit.removed, edit.added, performance.now()));
+    const added = this.#slabs.change(edit.removed, edit.added, performance.now());
+    this.#fetch(added);
+    this.#wear(this.#slabs.beside(added));
     this.#tell(edit);
     return true;
   }
@@ -126,14 +131,40 @@ export class View {
   }
 
   #fetch(slabs) {
-    for (const slab of slabs) {
-      const isWanted = () => this.#slabs.isPending(slab);
-      this.#loader.fetch(`slabs/${encodeURIComponent(slab.id)}.glb`, isWanted, async (response) => {
-        Object.assign(slab, parseSlab(await response.arrayBuffer()), { id: slab.id });
+    for (const slab of slabs)
+      this.#ask(slab, () => this.#slabs.isPending(slab), (content) => {
+        Object.assign(slab, content);
         this.#slabs.arrive(slab, performance.now());
         this.#showPending();
       });
+  }
+
+  #ask(slab, isWanted, take) {
+    this.#loader.fetch(`slabs/${encodeURIComponent(slab.id)}.glb`, isWanted, async (response) => {
+      take({ ...parseSlab(await response.arrayBuffer()), id: slab.id });
+    });
+  }
+
+  // The normals of slabs beside an edit are not those they were: they are fetched anew as soon as
+  // nothing else is.
+  #wear(slabs) {
+    for (const slab of slabs) this.#worn.add(slab);
+    clearTimeout(this.#renewal);
+    if (this.#worn.size > 0) this.#renewal = setTimeout(() => this.#renew(), quiet);
+  }
+
+  #renew() {
+    if (this.#slabs.pending > 0) return this.#wear([]);
+    for (const slab of this.#worn) {
+      const isInPlace = () => this.#slabs.isInPlace(slab);
+      this.#ask(slab, isInPlace, (content) => {
+        if (!isInPlace()) return;
+        this.#hide(slab);
+        Object.assign(slab, content);
+        this.#show(slab);
+      });
     }
+    this.#worn.clear();
   }
 
   #settle() {
