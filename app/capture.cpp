@@ -45,6 +45,10 @@ Edit inverse(const Edit& edit, const io::StackState& before) {
 
 }  // namespace
 
+std::string slab_name(std::size_t part, std::uint32_t id) {
+  return std::to_string(part) + '-' + std::to_string(id);
+}
+
 /// Slabs that came and went in all, over several changes: what came and went again is not in it.
 class Capture::NetChange {
  public:
@@ -55,15 +59,17 @@ class Capture::NetChange {
     for (const Defect& repair : change.repairs) repairs_.push_back(describe(repair));
   }
 
+  [[nodiscard]] bool is_empty() const { return removed_.empty() && added_.empty(); }
+
   void report(Answer& answer) const {
-    for (const auto& [part, id] : removed_) answer.removed.push_back(name(part, id));
-    for (const auto& [key, slab] : added_) answer.added.push_back(name(key.first, key.second));
+    for (const auto& [part, id] : removed_) answer.removed.push_back(slab_name(part, id));
+    for (const auto& [key, slab] : added_) answer.added.push_back(slab_name(key.first, key.second));
     answer.repairs = repairs_;
   }
 
   [[nodiscard]] Json removed() const {
     Json all = Json::array();
-    for (const auto& [part, id] : removed_) all.push_back(name(part, id));
+    for (const auto& [part, id] : removed_) all.push_back(slab_name(part, id));
     return all;
   }
   [[nodiscard]] Json added(std::uint64_t edit) const {
@@ -79,12 +85,9 @@ class Capture::NetChange {
     for (const auto& [key, slab] : added_) births[key] = edit;
   }
 
-  static std::string name(std::size_t part, std::uint32_t id) {
-    return std::to_string(part) + '-' + std::to_string(id);
-  }
   static Json to_json(std::size_t part, const std::string& label, const SlabInfo& slab,
                       std::uint64_t edit) {
-    return {{"id", name(part, slab.id)},
+    return {{"id", slab_name(part, slab.id)},
             {"low", slab.low},
             {"high", slab.high},
             {"label", label},
@@ -193,6 +196,9 @@ void Capture::work_off(std::vector<Job> jobs) {
         if (answer.outcome != Answer::Outcome::taken) {
           ++rejected_;
           all[i].change.note(edits_, births_);
+          // Labels before the one that refused it were changed and changed back: viewers start
+          // again.
+          if (!all[i].change.is_empty()) feed_.publish("");
           continue;
         }
         all[i].change.note(++edits_, births_);
@@ -232,6 +238,7 @@ Capture::Applied Capture::apply(const Edit& edit) {
     apply_to_parts(edit, applied.change);
   } catch (const Error& error) {
     applied.answer = {Answer::Outcome::rejected, error.what()};
+    view_.reset();
     return applied;
   }
   static_cast<void>(stack_.apply(edit));

@@ -40,6 +40,9 @@ struct Answer {
   double latency_ms = 0;  ///< since it was submitted
 };
 
+/// A slab as viewers know it: the number of its label, in order of arrival, and its id.
+[[nodiscard]] std::string slab_name(std::size_t part, std::uint32_t id);
+
 /// A capture at one time, for output and viewers.
 struct CaptureView {
   struct Part {

@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 #include <atomic>
-#include <exception>
 #include <iostream>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <thread>
 #include <utility>
@@ -17,6 +15,7 @@
 #include "app/feed.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
+#include "app/recorder.h"
 #include "app/report.h"
 #include "app/saver.h"
 #include "app/server.h"
@@ -29,7 +28,6 @@
 #include "io/atomic_file.h"
 #include "io/edit.h"
 #include "io/file.h"
-#include "io/replay.h"
 #include "io/surfaces.h"
 
 namespace loft::app {
@@ -63,58 +61,6 @@ std::optional<io::Session> open_session(StreamCommand& command) {
   session.set_settings(settings_of(command));
   return session;
 }
-
-/// Films a capture. Where that fails, the capture goes on, and write() says why.
-class Recorder {
- public:
-  Recorder(double metres_per_unit, double rate) : replay_(metres_per_unit), rate_(rate) {}
-
-  void add(const Answer& answer, const CaptureView& view) {
-    if (failure_) return;
-    try {
-      const double time = static_cast<double>(count_++) / rate_;
-      for (const std::string& slab : answer.removed) replay_.remove(time, slab);
-      for (const auto& [part, i] : looking_different(answer, view)) {
-        const auto& [label, snapshot] = view.parts[part];
-        const std::string slab = std::to_string(part) + '-' + std::to_string(snapshot.slab(i).id);
-        replay_.add(time, slab, snapshot, i, label, part);
-      }
-    } catch (const std::exception&) {
-      failure_ = std::current_exception();
-    }
-  }
-
-  void write(const path& file) const {
-    if (failure_) std::rethrow_exception(failure_);
-    io::AtomicFile output(file);
-    replay_.write(output.stream());
-    output.commit();
-  }
-
- private:
-  using Place = std::pair<std::size_t, std::size_t>;  // part, slab
-
-  /// The slabs that came and those beside them, whose normals they smooth.
-  static std::set<Place> looking_different(const Answer& answer, const CaptureView& view) {
-    std::set<Place> places;
-    for (const std::string& slab : answer.added) {
-      const std::size_t dash = slab.find('-');
-      const std::size_t part = std::stoul(slab.substr(0, dash));
-      const Snapshot& snapshot = view.parts[part].snapshot;
-      const std::size_t i =
-          snapshot.find(static_cast<std::uint32_t>(std::stoul(slab.substr(dash + 1))));
-      if (i > 0) places.emplace(part, i - 1);
-      places.emplace(part, i);
-      if (i + 1 < snapshot.slab_count()) places.emplace(part, i + 1);
-    }
-    return places;
-  }
-
-  io::Replay replay_;
-  double rate_;
-  std::size_t count_ = 0;
-  std::exception_ptr failure_;
-};
 
 Capture::Setup setup_of(const StreamCommand& command) {
   Capture::Setup setup;

@@ -15,6 +15,7 @@
 #include "io/shading.h"
 #include "io/surfaces.h"
 #include "reconstruct/defect.h"
+#include "tests/io/glb.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {
@@ -26,16 +27,7 @@ using testing::prism;
 tinygltf::Model load(const std::vector<Part>& parts, const WriteOptions& options = {}) {
   std::ostringstream out;
   write_glb(out, parts, options);
-  const std::string bytes = out.str();
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
-      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-      static_cast<unsigned>(bytes.size())))
-      << error;
-  EXPECT_EQ(error + warning, "");
-  return model;
+  return testing::load_glb(out.str());
 }
 
 std::vector<Vec3> vectors(const tinygltf::Model& model, std::size_t mesh, const char* attribute) {

@@ -12,6 +12,7 @@
 
 #include "reconstruct/defect.h"
 #include "reconstruct/reconstruction.h"
+#include "tests/io/glb.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft::io {
@@ -33,16 +34,7 @@ std::vector<float> numbers(const tinygltf::Model& model, int index) {
 tinygltf::Model load(const Replay& replay) {
   std::ostringstream out;
   replay.write(out);
-  const std::string bytes = out.str();
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  EXPECT_TRUE(tinygltf::TinyGLTF().LoadBinaryFromMemory(
-      &model, &error, &warning, reinterpret_cast<const unsigned char*>(bytes.data()),
-      static_cast<unsigned>(bytes.size())))
-      << error;
-  EXPECT_EQ(error + warning, "");
-  return model;
+  return testing::load_glb(out.str());
 }
 
 /// The scale that the animation gives to each of its nodes at a time.
