@@ -2,16 +2,20 @@
 // Times edits of a stack that is there already, through Reconstruction.
 //   live_edits [SLICES [POINTS [EDITS]]]      1000 1000 1000 by default
 #include <malloc.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <numbers>
 #include <random>
+#include <utility>
 #include <vector>
 
+#include "cdt/triangulation.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/reconstruction.h"
 
@@ -23,6 +27,15 @@ using loft::Slice;
 
 double seconds() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Memory of the process, without address space that nothing was ever written to. In bytes.
+std::size_t memory_in_use() {
+  malloc_trim(0);
+  std::size_t all = 0;
+  std::size_t resident = 0;
+  std::ifstream("/proc/self/statm") >> all >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
 }
 
 /// A closed curve that wobbles, another one in every slice and for every phase.
@@ -79,15 +92,14 @@ std::vector<double> times(std::size_t count, Body body) {
 }
 
 void time_whole_slices(std::size_t slices, std::size_t points, std::size_t edits) {
-  const auto in_use = [] { return mallinfo2().uordblks + mallinfo2().hblkhd; };
-  const std::size_t before = in_use();
+  const std::size_t before = memory_in_use();
   Reconstruction live;
   const auto inserts = times(
       slices, [&](std::size_t i) { static_cast<void>(live.insert(one_curve(i, points, 0))); });
   report("insert on top", inserts);
   const auto memory = [&] {
     std::printf("memory: %.0f bytes a contour vertex\n",
-                static_cast<double>(in_use() - before) / static_cast<double>(slices * points));
+                static_cast<double>(memory_in_use() - before) / static_cast<double>(slices * points));
   };
   memory();
   std::mt19937_64 random(1);
@@ -95,8 +107,9 @@ void time_whole_slices(std::size_t slices, std::size_t points, std::size_t edits
   for (std::size_t i = 0; i < edits; ++i)
     wanted.push_back(one_curve(random() % slices, points, 0.01 * static_cast<double>(i)));
   report("replace a slice", times(edits, [&](std::size_t i) {
-           static_cast<void>(live.replace(wanted[i].z, wanted[i]));
+           static_cast<void>(live.replace(wanted[i].z, std::move(wanted[i])));
          }));
+  wanted = {};
   memory();
   const auto all = live.slices();
   const double begin = seconds();
@@ -124,6 +137,51 @@ void time_one_of_fifty(std::size_t slices, std::size_t points, std::size_t edits
             z, contour, moved(live.find(z)->contours[contour], i % 2 == 0 ? 0.01 : -0.01).points));
       }));
   std::printf("  ratio %.2f\n", one / whole);
+}
+
+/// What it would take to keep the CDT of both slices of a slab from edit to edit, and to change it
+/// there, instead of making that of the pieces that an edit touches anew.
+void time_kept_overlay(std::size_t points, std::size_t edits) {
+  const std::size_t before = memory_in_use();
+  loft::cdt::Triangulation kept;
+  const auto insert = [](loft::cdt::Triangulation& overlay, const Slice& slice) {
+    std::vector<loft::cdt::ConstraintId> ids;
+    for (const Contour& contour : slice.contours)
+      ids.push_back(overlay.insert(contour.points, loft::cdt::closed));
+    return ids;
+  };
+  insert(kept, one_curve(0, points, 0));
+  auto changing = insert(kept, one_curve(1, points, 0))[0];
+  std::puts("the overlay of a slab, kept");
+  std::printf("  memory: %.0f bytes a contour vertex, of which each is in two\n",
+              static_cast<double>(memory_in_use() - before) / static_cast<double>(points));
+  loft::cdt::Triangulation workspace;
+  report("  one curve for another: made anew", times(edits, [&](std::size_t i) {
+           workspace.clear();
+           insert(workspace, one_curve(0, points, 0));
+           insert(workspace, one_curve(1, points, 0.01 * static_cast<double>(i)));
+         }));
+  report("  one curve for another: there", times(edits, [&](std::size_t i) {
+           kept.remove(changing);
+           changing = insert(kept, one_curve(1, points, 0.01 * static_cast<double>(i)))[0];
+         }));
+  const Slice lower = fifty(0, points, false);
+  const Slice upper = fifty(1, points, false);
+  const auto moved_seventh = [&](std::size_t i) {
+    return Slice{1, {moved(upper.contours[7], 0.001 * static_cast<double>(i % 10))}};
+  };
+  report("  one of 50: its piece made anew", times(edits, [&](std::size_t i) {
+           workspace.clear();
+           insert(workspace, Slice{0, {lower.contours[7]}});
+           insert(workspace, moved_seventh(i));
+         }));
+  kept.clear();
+  insert(kept, lower);
+  changing = insert(kept, upper)[7];
+  report("  one of 50: there", times(edits, [&](std::size_t i) {
+           kept.remove(changing);
+           changing = insert(kept, moved_seventh(i))[0];
+         }));
 }
 
 /// A vessel of 60 slices with 200 points, all replaced for each frame.
@@ -159,4 +217,5 @@ int main(int argc, char** argv) {
   time_one_of_fifty(std::min<std::size_t>(slices, 100), points, edits, false);
   time_one_of_fifty(std::min<std::size_t>(slices, 100), points, edits, true);
   time_vessel();
+  time_kept_overlay(points, edits);
 }

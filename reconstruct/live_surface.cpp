@@ -241,7 +241,8 @@ class LiveSurface::Splicing {
     return needed - std::min(needed, there.size());
   }
 
-  /// Arrays grow by an eighth: doubling would take twice the memory.
+  /// Arrays grow to twice their size, seldom enough for a steady pace. What is not used yet is
+  /// address space without memory behind it.
   void make_room() {
     std::size_t faces = 0;
     std::vector<bool> is_used(vertices_.size());
@@ -272,7 +273,7 @@ class LiveSurface::Splicing {
   }
 
   static std::size_t enlarged(std::size_t& room, std::size_t needed) {
-    if (needed > room) room = needed + needed / 8;
+    if (needed > room) room = 2 * needed;
     return room;
   }
 
