@@ -98,8 +98,9 @@ void time_whole_slices(std::size_t slices, std::size_t points, std::size_t edits
       slices, [&](std::size_t i) { static_cast<void>(live.insert(one_curve(i, points, 0))); });
   report("insert on top", inserts);
   const auto memory = [&] {
-    std::printf("memory: %.0f bytes a contour vertex\n",
-                static_cast<double>(memory_in_use() - before) / static_cast<double>(slices * points));
+    std::printf(
+        "memory: %.0f bytes a contour vertex\n",
+        static_cast<double>(memory_in_use() - before) / static_cast<double>(slices * points));
   };
   memory();
   std::mt19937_64 random(1);

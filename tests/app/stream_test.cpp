@@ -369,7 +369,6 @@ TEST(Session, WhatWasAcknowledgedIsThereAfterAKill) {
   for (int i = 0; i < kills; ++i) {
     Running running(folder, {"stream", "--no-input", "--port", "0", "--session", "c.session"});
     const auto client = running.client();
-    std::atomic<bool> is_killed = false;
     std::thread sender([&] {
       for (;;) {
         const auto answer = client->Post("/slices", leaning(acknowledged), "application/x-ndjson");
