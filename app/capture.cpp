@@ -110,17 +110,61 @@ struct Capture::Applied {
 Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
     : setup_(std::move(setup)), session_(std::move(session)), feed_(feed) {
   setup_.options.threads = 1;
-  if (session_) {
-    session_->for_each([&](std::uint64_t number, Edit&& edit) {
-      const Applied applied = apply(edit);
-      if (applied.answer.outcome != Answer::Outcome::taken)
-        throw InputError("edit " + std::to_string(number) +
-                         " of the session cannot be applied: " + applied.answer.error);
-      applied.change.note(++edits_, births_);
-      if (setup_.observe) setup_.observe(applied.answer, *view_now());
-    });
-  }
+  if (session_ && setup_.observe) repeat_session();
+  if (session_ && !setup_.observe) resume_session();
   thread_ = std::thread([this] { run(); });
+}
+
+namespace {
+
+InputError cannot_be_applied(std::uint64_t edit, const std::string& why) {
+  return InputError("edit " + std::to_string(edit) + " of the session cannot be applied: " + why);
+}
+
+}  // namespace
+
+/// Edit by edit, for who wants to see each.
+void Capture::repeat_session() {
+  session_->for_each([&](std::uint64_t number, Edit&& edit) {
+    const Applied applied = apply(edit);
+    if (applied.answer.outcome != Answer::Outcome::taken)
+      throw cannot_be_applied(number, applied.answer.error);
+    applied.change.note(++edits_, births_);
+    setup_.observe(applied.answer, *view_now());
+  });
+}
+
+/// Makes the slices that the edits have left, each once, whatever the number of edits.
+void Capture::resume_session() {
+  std::map<double, std::uint64_t> last_edits;  // of slices that are there, by height
+  NetChange none;
+  io::StackState stack;
+  session_->for_each([&](std::uint64_t number, Edit&& edit) {
+    if (edit.kind != Edit::Kind::remove) add_parts(edit.slice, none);
+    if (const auto problem = stack.apply(edit)) throw cannot_be_applied(number, *problem);
+    last_edits[edit.slice.z] = ++edits_;
+  });
+  for (const auto& [z, slice] : stack.slices()) {
+    try {
+      for (Part& part : parts_)
+        static_cast<void>(part.surface->insert(with_label(slice, part.label)));
+    } catch (const Error& error) {
+      throw cannot_be_applied(last_edits.at(z), error.what());
+    }
+  }
+  stack_ = std::move(stack);
+  note_births(last_edits);
+}
+
+/// A slab is as old as the last edit of its slices.
+void Capture::note_births(const std::map<double, std::uint64_t>& last_edits) {
+  const auto last = [&](double z) {
+    const auto found = last_edits.find(z);  // not there beyond the ends, for domes
+    return found == last_edits.end() ? 0 : found->second;
+  };
+  for (std::size_t i = 0; i < parts_.size(); ++i)
+    for (const SlabInfo& slab : parts_[i].surface->slabs())
+      births_[{i, slab.id}] = std::max(last(slab.low), last(slab.high));
 }
 
 Capture::~Capture() { close(); }

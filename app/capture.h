@@ -117,6 +117,9 @@ class Capture {
     std::unique_ptr<Reconstruction> surface;
   };
 
+  void repeat_session();
+  void resume_session();
+  void note_births(const std::map<double, std::uint64_t>& last_edits);
   void run();
   [[nodiscard]] std::vector<Job> next_jobs();
   void work_off(std::vector<Job> jobs);

@@ -149,6 +149,28 @@ TEST(Stream, WritesItsOutputsOnRequestAndEverySoOften) {
   expect_surface_of(folder, stack(5), "out.ply");
 }
 
+/// Reads server-sent events until it is enough.
+std::vector<std::string> read_events(httplib::Client& client, const httplib::Headers& headers,
+                                     std::size_t count) {
+  std::vector<std::string> events;
+  std::string text;
+  client.Get("/events", headers, [&](const char* bytes, std::size_t size) {
+    text.append(bytes, size);
+    for (std::size_t end = text.find("\n\n"); end != std::string::npos; end = text.find("\n\n")) {
+      if (text[0] != ':') events.push_back(text.substr(0, end));
+      text.erase(0, end + 2);
+    }
+    return events.size() < count;
+  });
+  return events;
+}
+
+/// The event that tells a viewer of all that there is.
+json reset_event(httplib::Client& client) {
+  const std::string text = read_events(client, {}, 1).at(0);
+  return json::parse(text.substr(text.find("data: ") + 6));
+}
+
 class Posting : public ::testing::Test {
  protected:
   Folder folder_;
@@ -249,17 +271,7 @@ TEST_F(Posting, GivesTheSurfaceAndItsParts) {
   EXPECT_EQ(json::parse(client_->Get("/slices")->body)["slices"], (std::vector{0, 1, 2, 3}));
 
   // All slabs together are the whole surface.
-  const auto reset = [&] {
-    std::string text;
-    client_->Get("/events", [&](const char* bytes, std::size_t size) {
-      text.append(bytes, size);
-      return text.find("\n\n") == std::string::npos;
-    });
-    return text;
-  }();
-  EXPECT_THAT(reset, HasSubstr("event: reset"));
-  const std::size_t data = reset.find("data: ") + 6;
-  const json event = json::parse(reset.substr(data, reset.find('\n', data) - data));
+  const json event = reset_event(*client_);
   std::size_t faces = 0;
   for (const json& slab : event["slabs"]) {
     const auto glb = client_->Get("/slabs/" + slab["id"].get<std::string>() + ".glb");
@@ -270,22 +282,6 @@ TEST_F(Posting, GivesTheSurfaceAndItsParts) {
   }
   EXPECT_EQ(faces, triangles(folder_ / "surface.ply").size());
   EXPECT_EQ(event["counts"]["faces"], faces);
-}
-
-/// Reads server-sent events until it is enough.
-std::vector<std::string> read_events(httplib::Client& client, const httplib::Headers& headers,
-                                     std::size_t count) {
-  std::vector<std::string> events;
-  std::string text;
-  client.Get("/events", headers, [&](const char* bytes, std::size_t size) {
-    text.append(bytes, size);
-    for (std::size_t end = text.find("\n\n"); end != std::string::npos; end = text.find("\n\n")) {
-      if (text[0] != ':') events.push_back(text.substr(0, end));
-      text.erase(0, end + 2);
-    }
-    return events.size() < count;
-  });
-  return events;
 }
 
 TEST_F(Posting, AReaderThatComesBackGetsWhatItHasMissed) {
@@ -403,6 +399,23 @@ TEST(Session, ResumesWithItsSettings) {
   const Outcome other = run(folder, "stream --session c.session --cap open");
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("was begun with cap dome, not open"));
+}
+
+TEST(Session, SlabsAreAsOldAsTheLastEditsOfTheirSlices) {
+  const Folder folder;
+  const std::vector<std::string> words{"stream", "--no-input", "--port", "0", "--session", "c"};
+  {
+    Running running(folder, words);
+    const std::string edits = stack(4) + "{\"op\": \"remove\", \"z\": 1}\n" +
+                              "{\"op\": \"replace\"," + leaning(0).substr(1) + leaning(1);
+    ASSERT_EQ(running.client()->Post("/slices", edits, "application/x-ndjson")->status, 200);
+  }
+  Running running(folder, words);
+  const json event = reset_event(*running.client());
+  EXPECT_EQ(event["edits"], 7);
+  std::vector<int> ages;
+  for (const json& slab : event["slabs"]) ages.push_back(slab["edit"]);
+  EXPECT_THAT(ages, ::testing::ElementsAre(7, 7, 4));
 }
 
 TEST(Stream, AReplayShowsASessionAsItWasCaptured) {
