@@ -2,7 +2,9 @@
 #include "reconstruct/exchange.h"
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include "reconstruct/caps.h"
 #include "reconstruct/sewing.h"
@@ -17,12 +19,19 @@ class Exchange {
       : stack_(stack), gaps_(gaps), rims_(std::move(rims)), change_(change) {}
 
   void run() {
+    for (const Gap& gap : gaps_.all())
+      if (gap.before != nullptr) kept_in_part_.insert(gap.before);
     for (const double z : gaps_.gone()) let_go(stack_.slabs.find(z)->second);
     for (Gap& gap : gaps_.all()) list_units(gap);
+    const bool has_lost = !removed_.empty();
     for (std::size_t i = 0; i < units_.size();) {
       std::size_t end = i;
       while (end < units_.size() && units_[end].is_new) ++end;
-      if (end > i) splice(i, end);
+      if (end > i) {
+        splice(i, end, i - (touches_below(i) ? 1 : 0), end + (touches_above(end - 1) ? 1 : 0));
+      } else if (has_lost && is_torn(units_[i])) {
+        splice(i, i, i - (touches_below(i) ? 1 : 0), i + 1 + (touches_above(i) ? 1 : 0));
+      }
       i = std::max(end, i + 1);
     }
     if (!removed_.empty())
@@ -33,6 +42,9 @@ class Exchange {
     for (Gap& gap : gaps_.all())
       if (gap.made) stack_.slabs[gap.lower->region->z] = std::move(*gap.made);
     std::ranges::sort(change_.removed);
+    std::ranges::sort(change_.resewn);
+    const auto same = std::ranges::unique(change_.resewn);
+    change_.resewn.erase(same.begin(), same.end());
   }
 
  private:
@@ -51,12 +63,8 @@ class Exchange {
       if (station != stack_.stations.end()) rims_.push_back(&station->second.rim);
     }
     for (const Faces* faces : {&slab.bottom, &slab.faces, &slab.top})
-      if (faces != &slab.faces || !is_kept_in_part(slab))
+      if (faces != &slab.faces || !kept_in_part_.contains(&slab))
         removed_.insert(removed_.end(), faces->begin(), faces->end());
-  }
-
-  [[nodiscard]] bool is_kept_in_part(const LiveSlab& slab) const {
-    return std::ranges::any_of(gaps_.all(), [&](const Gap& gap) { return gap.before == &slab; });
   }
 
   void list_units(Gap& gap) {
@@ -135,11 +143,21 @@ class Exchange {
     return unit + 1 < units_.size() && is_touching(above(units_[unit]));
   }
 
-  /// Puts the new units from `begin` to `end` into the surface, with as many beside them as have to
-  /// be sewn with them: where contours of a slice touch, so may the layers below and above it.
-  void splice(std::size_t begin, std::size_t end) {
-    std::size_t first = begin - (touches_below(begin) ? 1 : 0);
-    std::size_t last = end + (touches_above(end - 1) ? 1 : 0);
+  /// Whether a slab is the end of an open surface where its contours touch: without what was beyond
+  /// it the parts there are others.
+  [[nodiscard]] bool is_torn(const Unit& unit) const {
+    const auto needs_both_sides = [](const Station& slice) {
+      return !is_simple(*slice.region) || !slice.rim.is_regular;
+    };
+    return stack_.options.cap == Cap::open &&
+           ((unit.gap->is_first && needs_both_sides(*unit.gap->lower)) ||
+            (unit.gap->is_last && needs_both_sides(*unit.gap->upper)));
+  }
+
+  /// Puts the new units from `begin` to `end` into the surface, with those from `first` to `last`,
+  /// and as many beside them as have to be sewn with them: where contours of a slice touch, so may
+  /// the layers below and above it.
+  void splice(std::size_t begin, std::size_t end, std::size_t first, std::size_t last) {
     for (;;) {
       while (first > 0 && !below(units_[first]).rim->is_regular) --first;
       while (last < units_.size() && !above(units_[last - 1]).rim->is_regular) ++last;
@@ -150,9 +168,12 @@ class Exchange {
       if (spliced.needs_below || spliced.needs_above) continue;
       for (std::size_t i = first; i < last; ++i) {
         Faces& faces = *units_[i].faces;
+        Gap& gap = *units_[i].gap;
+        const bool stays = !units_[i].is_new && !gap.made;
+        if (stays && faces != spliced.faces[i - first])
+          change_.resewn.push_back(gap.there->frozen->info.id);
         if (units_[i].gap->before == nullptr || !units_[i].is_new) faces.clear();
         faces.insert(faces.end(), spliced.faces[i - first].begin(), spliced.faces[i - first].end());
-        Gap& gap = *units_[i].gap;
         (gap.made ? *gap.made : *gap.there).is_sewn_as_tiled = spliced.is_sewn_as_tiled;
         units_[i].is_new = false;
       }
@@ -217,6 +238,7 @@ class Exchange {
   LiveStack& stack_;
   Gaps& gaps_;
   std::vector<Rim*> rims_;  // of the slices at the faces that go
+  std::unordered_set<const LiveSlab*> kept_in_part_;
   std::vector<Unit> units_;
   Faces removed_;
   SurfaceChange& change_;

@@ -152,8 +152,7 @@ void Gaps::bend(std::size_t i) {
       is_tiled ? std::make_shared<const TileSet>(std::move(*gap.tiles)) : gap.there->frozen->linked;
   auto pieces =
       is_tiled ? std::make_shared<const Pieces>(std::move(*gap.pieces)) : gap.there->frozen->pieces;
-  if (gap.made->found != nullptr && is_tiled && gap.made->links.empty())
-    pieces = gap.made->found;  // the same
+  if (is_tiled && gap.made->links.empty()) pieces = gap.made->found;  // the same
   auto tiles = linked;
   const Region& lower = *gap.lower->region;
   const Region& upper = *gap.upper->region;

@@ -154,14 +154,7 @@ class LiveSurface::Splicing {
     std::unordered_map<int, std::uint32_t> numbers;  // of the faces that are there
     for (std::uint32_t i = 0; i < made_.size(); ++i)
       if (made_[i].stays) numbers.emplace(made_[i].handle.idx(), i);
-    for (bool is_settled = false; !is_settled;) {
-      is_settled = true;
-      for (Made& face : made_) {
-        if (!face.stays || fits(face, numbers)) continue;
-        face.stays = false;
-        is_settled = false;
-      }
-    }
+    for (Made& face : made_) face.stays = face.stays && fits(face, numbers);
   }
 
   [[nodiscard]] bool fits(const Made& face, const std::unordered_map<int, std::uint32_t>& numbers) {
@@ -386,6 +379,7 @@ class LiveSurface::Splicing {
   /// Edges at what went or came that have one face are a boundary now. A vertex there leads to its
   /// half-edge along the boundary.
   void close_boundaries() {
+    if (live_.is_open_) touch_what_stays();
     std::vector<Handle> boundary;
     for (const Handle h : loose_) {
       if (surface_.status(surface_.edge_handle(h)).deleted()) continue;
@@ -407,6 +401,17 @@ class LiveSurface::Splicing {
       surface_.set_next_halfedge_handle(h, surface_.halfedge_handle(surface_.to_vertex_handle(h)));
       const Handle before = boundary_before(h);
       surface_.set_next_halfedge_handle(before, h);
+    }
+  }
+
+  /// What went may have been all that joined the faces at a vertex: where they stay, they have
+  /// vertices of their own now, and boundaries there.
+  void touch_what_stays() {
+    for (const Made& face : made_) {
+      if (!face.stays) continue;
+      Handle side = surface_.halfedge_handle(face.handle);
+      for (int k = 0; k < 3; ++k, side = surface_.next_halfedge_handle(side))
+        loose_.push_back(side);
     }
   }
 

@@ -2,6 +2,7 @@
 #include "reconstruct/reconstruction.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "reconstruct/heights.h"
 #include "reconstruct/live_stack.h"
 #include "reconstruct/number_text.h"
+#include "reconstruct/out_of_core.h"
 #include "reconstruct/stack_edit.h"
 
 namespace loft {
@@ -39,6 +41,10 @@ SurfaceChange Reconstruction::insert(std::shared_ptr<const Slice> slice) {
   const double z = slice->z;
   const Slice* there = find(z);
   if (there == nullptr) return apply(*stack_, {{z, std::move(slice)}});
+  // Before its contours have other numbers.
+  const std::uint32_t number = stack_->stations.find(z)->second.number;
+  if (auto unusable = find_unusable(*slice, number, stack_->options.label); !unusable.empty())
+    throw InputError(std::move(unusable));
   Slice both = *there;
   both.contours.insert(both.contours.end(), slice->contours.begin(), slice->contours.end());
   return apply(*stack_, {{z, std::make_shared<const Slice>(std::move(both)), true}});
@@ -86,7 +92,10 @@ SurfaceChange Reconstruction::move_contour(double z, std::size_t contour,
     throw InputError("the slice at z = " + exact(z) + " has no contour " + std::to_string(contour));
   Slice slice = *there;
   slice.contours[contour].points = std::move(points);
-  return replace(z, std::move(slice));
+  const auto& repairs = stack_->stations.find(z)->second.repairs;
+  const bool is_merged =
+      std::ranges::find(repairs, DefectKind::merged_slices, &Defect::kind) != repairs.end();
+  return apply(*stack_, {{z, std::make_shared<const Slice>(std::move(slice)), is_merged}});
 }
 
 const Surface& Reconstruction::surface() const { return stack_->surface.surface(); }
@@ -111,6 +120,7 @@ void Reconstruction::collect_garbage() {
 std::size_t Reconstruction::slice_count() const { return stack_->stations.size(); }
 
 const Slice* Reconstruction::find(double z) const {
+  if (std::isnan(z)) return nullptr;  // no key of a map
   const auto found = stack_->stations.find(z);
   return found == stack_->stations.end() ? nullptr : found->second.slice.get();
 }

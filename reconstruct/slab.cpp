@@ -47,6 +47,19 @@ bool Slab::is_exact() const {
   return true;
 }
 
+bool Slab::is_oriented() const {
+  const auto has = [](Side side, Level level) {
+    return (static_cast<unsigned>(side) &
+            static_cast<unsigned>(level == Level::lower ? Side::lower : Side::upper)) != 0;
+  };
+  for (std::uint32_t i = 0; i < overlay_.segment_bound(); ++i) {
+    const cdt::SegmentId segment(i);
+    for (const cdt::EdgeId e : overlay_.pieces(segment))
+      if (!has(side(e), level(segment))) return false;
+  }
+  return true;
+}
+
 bool Slab::is_tight(double height) const {
   for (std::uint32_t i = 1; i < overlay_.vertex_bound(); ++i) {
     const cdt::VertexId v(i);

@@ -46,6 +46,9 @@ class Slab {
   /// Whether rounding has decided nothing: contours of the two slices cross in vertices of their
   /// own, and otherwise meet exactly where they pass through each other's vertices.
   [[nodiscard]] bool is_exact() const;
+  /// Whether each slice's loops have its region on their left, by parity: they do not where they
+  /// are only some of the loops of a region, and others are missing around them.
+  [[nodiscard]] bool is_oriented() const;
   /// Whether a triangle at a crossing is lower than `height`: there rounding may matter.
   [[nodiscard]] bool is_tight(double height) const;
 

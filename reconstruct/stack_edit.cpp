@@ -2,6 +2,7 @@
 #include "reconstruct/stack_edit.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -33,36 +34,36 @@ Defect merged_slices(double z, std::uint32_t slice) {
 class StackEdit {
  public:
   StackEdit(LiveStack& stack, std::vector<SliceEdit> edits)
-      : stack_(stack), edits_(std::move(edits)) {}
+      : stack_(stack),
+        edits_(std::move(edits)),
+        old_below_(stack.below),
+        old_above_(stack.above),
+        old_next_number_(stack.next_number),
+        old_next_id_(stack.next_id) {}
 
   SurfaceChange run() {
-    prepare();
-    if (is_quiet_) {
-      exchange_slices();
-    } else {
-      change_surface();
-    }
-    note_empty_slices();
-    return std::move(change_);
-  }
-
- private:
-  void change_surface() {
     std::optional<Gaps> gaps;
     try {
+      prepare();
       exchange_slices();
-      gaps.emplace(list_gaps());
-      gaps->make();
-      check_room(*gaps);
-      report(*gaps);
+      if (!is_quiet_) {
+        gaps.emplace(list_gaps());
+        gaps->make();
+        check_room(*gaps);
+        report(*gaps);
+      }
     } catch (...) {
       take_back();
       throw;
     }
-    exchange(stack_, *gaps, keep_rims(*gaps), change_);
-    stack_.ends = ends_;
+    if (gaps) {
+      exchange(stack_, *gaps, keep_rims(*gaps), change_);
+      stack_.ends = ends_;
+    }
+    return std::move(change_);
   }
 
+ private:
   void check_room(Gaps& gaps) const {
     std::size_t faces = 0;
     for (const Gap& gap : gaps.all()) {
@@ -78,17 +79,9 @@ class StackEdit {
       if (!gap.made) continue;
       const FrozenSlab& slab = *gap.made->frozen;
       change_.added.push_back(slab.info);
+      const bool is_interrupted = gap.lower->slice != nullptr && slab.lower->is_empty();
+      if (is_interrupted) change_.repairs.push_back(empty_slice(*slab.lower));
       if (!slab.linked->is_linked) change_.repairs.push_back(unlinked_slices(*slab.lower));
-    }
-  }
-
-  void note_empty_slices() {
-    if (!stack_.ends) return;
-    for (const SliceEdit& edit : edits_) {
-      const auto station = stack_.stations.find(edit.z);
-      if (station == stack_.stations.end() || !station->second.region->is_empty()) continue;
-      if (edit.z > stack_.ends->first && edit.z < stack_.ends->second)
-        change_.repairs.push_back(empty_slice(*station->second.region));
     }
   }
 
@@ -98,7 +91,7 @@ class StackEdit {
     std::vector<Defect> fatal;
     for (const SliceEdit& edit : edits_) {
       if (!edit.slice) continue;
-      std::ranges::move(find_unusable(*edit.slice, stack_.next_number, stack_.options.label),
+      std::ranges::move(find_unusable(*edit.slice, number(edit.z), stack_.options.label),
                         std::back_inserter(fatal));
       check_gap(edit.z, fatal);
     }
@@ -113,6 +106,12 @@ class StackEdit {
     }
   }
 
+  /// Of the slice at a height, or of the next one that comes.
+  [[nodiscard]] std::uint32_t number(double z) const {
+    const auto there = std::isnan(z) ? stack_.stations.end() : stack_.stations.find(z);
+    return there == stack_.stations.end() ? stack_.next_number : there->second.number;
+  }
+
   [[nodiscard]] bool goes(double z) const {
     return std::ranges::any_of(edits_,
                                [&](const SliceEdit& edit) { return edit.z == z && !edit.slice; });
@@ -122,7 +121,7 @@ class StackEdit {
     const auto note = [&](double other) {
       fatal.push_back({DefectKind::slices_too_near,
                        z,
-                       stack_.next_number,
+                       number(z),
                        {},
                        {},
                        {},
@@ -132,12 +131,12 @@ class StackEdit {
                            "nearby, or replace that slice"});
     };
     const auto above = stack_.stations.upper_bound(z);
-    if (above != stack_.stations.end() && !goes(above->first) && are_too_near(z, above->first))
+    if (above != stack_.stations.end() && are_too_near(z, above->first) && !goes(above->first))
       note(above->first);
     const auto at = stack_.stations.lower_bound(z);
     if (at == stack_.stations.begin()) return;
     const double below = std::prev(at)->first;
-    if (!goes(below) && are_too_near(below, z)) note(below);
+    if (are_too_near(below, z) && !goes(below)) note(below);
   }
 
   [[nodiscard]] Station make_station(SliceEdit edit) {
@@ -170,8 +169,6 @@ class StackEdit {
   }
 
   void exchange_slices() {
-    old_below_ = stack_.below;
-    old_above_ = stack_.above;
     old_.reserve(edits_.size());
     for (std::size_t i = 0; i < edits_.size(); ++i) {
       const double z = edits_[i].z;
@@ -186,6 +183,8 @@ class StackEdit {
       if (!node.empty()) stack_.stations.insert(std::move(node));
     stack_.below = std::move(old_below_);
     stack_.above = std::move(old_above_);
+    stack_.next_number = old_next_number_;
+    stack_.next_id = old_next_id_;
   }
 
   // --- Their surroundings ---
@@ -203,10 +202,13 @@ class StackEdit {
     };
     for (const SliceEdit& edit : edits_) widen(edit.z);
     if (stack_.ends) {
-      if (stack_.ends->first != first->first) widen(std::min(stack_.ends->first, first->first));
-      if (stack_.ends->first != first->first) widen(std::max(stack_.ends->first, first->first));
-      if (stack_.ends->second != last->first) widen(std::min(stack_.ends->second, last->first));
-      if (stack_.ends->second != last->first) widen(std::max(stack_.ends->second, last->first));
+      const auto widen_if_moved = [&](double before, double now) {
+        if (before == now) return;
+        widen(before);
+        widen(now);
+      };
+      widen_if_moved(stack_.ends->first, first->first);
+      widen_if_moved(stack_.ends->second, last->first);
     } else {
       widen(first->first);
       widen(last->first);
@@ -274,6 +276,8 @@ class StackEdit {
   std::vector<Stations::node_type> old_;
   Station old_below_;
   Station old_above_;
+  std::uint32_t old_next_number_;
+  std::uint32_t old_next_id_;
   std::optional<std::pair<double, double>> ends_;
   SurfaceChange change_;
 };

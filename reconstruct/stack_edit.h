@@ -18,7 +18,8 @@ struct SliceEdit {
 };
 
 /// Applies edits, each at another height, as one. Strong guarantee: throws InputError with all that
-/// is wrong before anything has changed. Cost: that of the slabs beside the slices.
+/// is wrong before anything has changed. Cost: that of the slabs beside the slices, and a little
+/// for each slab between the lowest and the highest of them.
 SurfaceChange apply(LiveStack& stack, std::vector<SliceEdit> edits);
 
 }  // namespace loft

@@ -351,10 +351,14 @@ double doubt(const Region& lower, const Region& upper) { return scale(lower, upp
 std::optional<TileSet> tile_plain(const Region& lower, const Region& upper, double doubt,
                                   TileWorkspace& workspace) {
   if (lower.is_empty() || upper.is_empty()) return {};
-  std::size_t pairs_left = any_number;
-  auto tiles = tile_sheared(lower, upper, {}, doubt, Overlay::exact, pairs_left, workspace);
-  if (!tiles || !tiles->is_plain) return {};
-  return tiles;
+  Slab slab(lower, upper, {}, std::move(workspace.overlay));
+  std::optional<Draft> drafted;
+  if (slab.is_oriented()) drafted = draft(slab, doubt, Overlay::exact, workspace);
+  workspace.overlay = slab.release();
+  if (!drafted || drafted->is_doubtful) return {};
+  collapse_crossings(lower, upper, drafted->tiles);
+  drafted->tiles.is_plain = true;
+  return std::move(drafted->tiles);
 }
 
 std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,

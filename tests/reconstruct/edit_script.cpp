@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "reconstruct/reconstruct.h"
+#include "tests/reconstruct/change_watch.h"
 
 namespace loft::edits {
 
@@ -64,6 +65,16 @@ bool is_alive(const Surface& surface, Surface::HalfedgeHandle h) {
          !surface.status(surface.edge_handle(h)).deleted();
 }
 
+/// Whether a boundary goes on at both ends of its half-edge, and the vertex leads to it.
+bool is_boundary_closed(const Surface& surface, Surface::HalfedgeHandle h) {
+  const auto next = surface.next_halfedge_handle(h);
+  const auto from = surface.from_vertex_handle(h);
+  return is_alive(surface, next) && surface.is_boundary(next) &&
+         surface.from_vertex_handle(next) == surface.to_vertex_handle(h) &&
+         surface.prev_halfedge_handle(next) == h &&
+         surface.is_boundary(surface.halfedge_handle(from));
+}
+
 }  // namespace
 
 std::string broken(const Surface& surface) {
@@ -79,6 +90,8 @@ std::string broken(const Surface& surface) {
       const auto other = surface.opposite_halfedge_handle(h);
       if (!surface.is_boundary(other) && surface.status(surface.face_handle(other)).deleted())
         return "a neighbour is deleted";
+      if (surface.is_boundary(other) && !is_boundary_closed(surface, other))
+        return "a boundary is broken";
       if (surface.status(surface.to_vertex_handle(h)).deleted()) return "a corner is deleted";
       ++faces_at[surface.to_vertex_handle(h).idx()];
     }
@@ -177,48 +190,54 @@ std::string RandomEdits::reject(Reconstruction& live) {
 }
 
 std::string RandomEdits::next(Reconstruction& live) {
+  if (live.slice_count() > 0 && below(10) == 0) return reject(live);
+  const ChangeWatch watch(live);
+  const std::optional<SurfaceChange> change = edit(live);
+  return change ? watch.lie(live, *change) : "";
+}
+
+/// None where there was nothing to do.
+std::optional<SurfaceChange> RandomEdits::edit(Reconstruction& live) {
   const std::size_t kind = below(20);
   if (live.slice_count() == 0 || kind < 7) {
     const Slice& slice = pool_[below(pool_.size())];
-    if (live.find(slice.z) != nullptr && kind < 6) {
-      live.replace(slice.z, slice);
-    } else {
-      live.insert(slice);
-    }
-    return "";
+    if (live.find(slice.z) != nullptr && kind < 6) return live.replace(slice.z, slice);
+    return live.insert(slice);
   }
   const double z = any_height(live);
-  if (kind < 10) {
-    live.remove(z);
-  } else if (kind < 12) {
+  if (kind < 9) return live.remove(z);
+  if (kind < 11) {
     Slice other = pool_[below(pool_.size())];
     other.z = z;
-    live.replace(z, std::move(other));
-  } else if (kind < 13) {
-    Slice moved = *live.find(z);
-    moved.z = pool_[below(pool_.size())].z;
-    if (live.find(moved.z) == nullptr) live.replace(z, std::move(moved));
-  } else if (kind < 14) {
-    live.replace(z, Slice{z, {}});
-  } else if (kind < 16) {
-    return reject(live);
-  } else if (kind == 16) {
-    auto all = live.slices();
-    for (Slice& slice : all) jog(slice);
-    live.replace(std::move(all));
-  } else if (kind < 18) {
-    const Slice& slice = *live.find(z);
-    if (slice.contours.empty()) return "";
-    const std::size_t contour = below(slice.contours.size());
-    Slice moved = slice;
-    jog(moved);
-    live.move_contour(z, contour, moved.contours[contour].points);
-  } else {
-    Slice moved = *live.find(z);
-    jog(moved);
-    live.replace(z, std::move(moved));
+    return live.replace(z, std::move(other));
   }
-  return "";
+  Slice slice = *live.find(z);
+  if (kind < 12) {
+    slice.z = pool_[below(pool_.size())].z;
+    if (live.find(slice.z) != nullptr) return {};
+    return live.replace(z, std::move(slice));
+  }
+  if (kind < 13) return live.replace(z, Slice{z, {}});
+  if (kind < 14) {
+    auto all = live.slices();
+    for (Slice& one : all) jog(one);
+    return live.replace(std::move(all));
+  }
+  if (kind < 15) {
+    const Slice& other = pool_[below(pool_.size())];
+    if (other.contours.empty()) return {};
+    slice.contours.push_back(other.contours[below(other.contours.size())]);
+    return live.replace(z, std::move(slice));
+  }
+  if (slice.contours.empty()) return {};
+  const std::size_t contour = below(slice.contours.size());
+  if (kind < 16) {
+    slice.contours.erase(slice.contours.begin() + static_cast<std::ptrdiff_t>(contour));
+    return live.replace(z, std::move(slice));
+  }
+  jog(slice);
+  if (kind < 18) return live.move_contour(z, contour, slice.contours[contour].points);
+  return live.replace(z, std::move(slice));
 }
 
 }  // namespace loft::edits

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -20,14 +21,14 @@ namespace loft::edits {
 [[nodiscard]] std::string difference(const Reconstruction& live, const Options& options);
 
 /// Random edits of a stack, all kinds of them: inserted in any order, at heights that are taken,
-/// replaced, moved, by hardly anything, removed, and rejected.
+/// replaced, moved, by hardly anything, with contours that come and go, removed, and rejected.
 class RandomEdits {
  public:
   /// `pool`: slices to insert, each at its height.
   RandomEdits(std::vector<Slice> pool, std::uint64_t seed)
       : pool_(std::move(pool)), random_(seed) {}
 
-  /// Does an edit. Returns what was wrong with it, if that can be seen at once.
+  /// Does an edit. Returns what was wrong with it, or with what it says of itself (ChangeWatch).
   std::string next(Reconstruction& live);
 
  private:
@@ -35,6 +36,7 @@ class RandomEdits {
   [[nodiscard]] double any_height(const Reconstruction& live);
   [[nodiscard]] std::string reject(Reconstruction& live);
   void jog(Slice& slice);
+  std::optional<SurfaceChange> edit(Reconstruction& live);
 
   std::vector<Slice> pool_;
   std::mt19937_64 random_;
