@@ -52,10 +52,10 @@ bool Slab::is_oriented() const {
     return (static_cast<unsigned>(side) &
             static_cast<unsigned>(level == Level::lower ? Side::lower : Side::upper)) != 0;
   };
-  for (std::uint32_t i = 0; i < overlay_.segment_bound(); ++i) {
-    const cdt::SegmentId segment(i);
-    for (const cdt::EdgeId e : overlay_.pieces(segment))
-      if (!has(side(e), level(segment))) return false;
+  for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
+    const cdt::EdgeId e(i);
+    for (const cdt::Passage passage : overlay_.passages(e))
+      if (overlay_.is_forward(e, passage) && !has(side(e), level(passage.segment()))) return false;
   }
   return true;
 }
