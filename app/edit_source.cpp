@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <string_view>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -42,13 +43,16 @@ std::string EditSource::name() const {
 }
 
 std::string EditSource::full_name(const std::filesystem::path& path) {
-  return std::filesystem::absolute(path).lexically_normal().string();
+  const std::filesystem::path full = std::filesystem::absolute(path);
+  std::error_code failure;
+  const std::filesystem::path without_links = std::filesystem::weakly_canonical(full, failure);
+  return (failure ? full : without_links).string();
 }
 
 std::optional<io::InputPosition> EditSource::position() const {
   if (!is_regular_) return {};
   const auto offset = static_cast<std::uint64_t>(place_) - (buffer_.size() - begin_);
-  return io::InputPosition{full_name(setup_.path), offset, checksum_};
+  return io::InputPosition{full_name_, offset, checksum_};
 }
 
 std::size_t EditSource::unfinished_bytes() const {
@@ -174,6 +178,7 @@ bool EditSource::open() {
     setup_.say(name() + " is another file now: going on with that");
   }
   file_ = file;
+  full_name_ = full_name(setup_.path);
   device_ = status.st_dev;
   number_ = status.st_ino;
   is_regular_ = S_ISREG(status.st_mode);

@@ -49,7 +49,7 @@ class EditSource {
   [[nodiscard]] std::size_t unfinished_bytes() const;
   /// `standard input` or the file's name.
   [[nodiscard]] std::string name() const;
-  /// The name that positions have for a file.
+  /// The name that positions have for a file, whatever links lead to it.
   [[nodiscard]] static std::string full_name(const std::filesystem::path& path);
 
  private:
@@ -65,6 +65,7 @@ class EditSource {
 
   Setup setup_;
   int file_ = -1;
+  std::string full_name_;
   dev_t device_ = 0;  // where the open file is, and its number there
   ino_t number_ = 0;
   bool is_regular_ = false;

@@ -168,6 +168,13 @@ TEST_F(Source, AMarkInFrontIsNoPartOfTheFirstLine) {
   EXPECT_THAT(read(source), ElementsAre("1 c"));
 }
 
+TEST_F(Source, AFileHasOnePositionWhateverLinksLeadToIt) {
+  write("a\n");
+  std::filesystem::create_symlink(path_, folder_ / "link");
+  EXPECT_EQ(EditSource::full_name(folder_ / "link"), EditSource::full_name(path_));
+  EXPECT_EQ(EditSource::full_name("not_there"), std::filesystem::current_path() / "not_there");
+}
+
 TEST_F(Source, GoesOnWhereItWas) {
   write("a\nb\nc");
   std::vector<std::optional<io::InputPosition>> positions;
