@@ -25,91 +25,30 @@ double milliseconds(std::chrono::steady_clock::duration time) {
   return std::chrono::duration<double, std::milli>(time).count();
 }
 
-/// Only the points with that label; contours keep their numbers.
-Slice with_label(const Slice& slice, const std::string& label) {
-  Slice result{slice.z, {}};
-  for (const Contour& contour : slice.contours) {
-    result.contours.emplace_back().label = contour.label;
-    if (contour.label == label) result.contours.back().points = contour.points;
-  }
-  return result;
+/// What an edit counts in the queue, in points.
+std::size_t weight(const Edit& edit) {
+  return point_count(edit.slice) + 4 * edit.slice.contours.size();
 }
 
-/// Takes an edit back.
-Edit inverse(const Edit& edit, const io::StackState& before) {
-  const auto there = before.slices().find(edit.slice.z);
-  if (there == before.slices().end()) return {Edit::Kind::remove, {edit.slice.z, {}}};
-  return {edit.kind == Edit::Kind::remove ? Edit::Kind::insert : Edit::Kind::replace,
-          there->second};
+Options single_threaded(Options options) {
+  options.threads = 1;
+  return options;
 }
 
 }  // namespace
-
-std::string slab_name(std::size_t part, std::uint32_t id) {
-  return std::to_string(part) + '-' + std::to_string(id);
-}
-
-/// Slabs that came and went in all, over several changes: what came and went again is not in it.
-class Capture::NetChange {
- public:
-  void add(std::size_t part, const std::string& label, const SurfaceChange& change) {
-    for (const std::uint32_t id : change.removed)
-      if (added_.erase({part, id}) == 0) removed_.emplace_back(part, id);
-    for (const SlabInfo& slab : change.added) added_[{part, slab.id}] = {label, slab};
-    for (const Defect& repair : change.repairs) repairs_.push_back(describe(repair));
-  }
-
-  [[nodiscard]] bool is_empty() const { return removed_.empty() && added_.empty(); }
-
-  void report(Answer& answer) const {
-    for (const auto& [part, id] : removed_) answer.removed.push_back(slab_name(part, id));
-    for (const auto& [key, slab] : added_) answer.added.push_back(slab_name(key.first, key.second));
-    answer.repairs = repairs_;
-  }
-
-  [[nodiscard]] Json removed() const {
-    Json all = Json::array();
-    for (const auto& [part, id] : removed_) all.push_back(slab_name(part, id));
-    return all;
-  }
-  [[nodiscard]] Json added(std::uint64_t edit) const {
-    Json all = Json::array();
-    for (const auto& [key, slab] : added_)
-      all.push_back(to_json(key.first, slab.first, slab.second, edit));
-    return all;
-  }
-
-  /// Slabs that came get the number of the edit.
-  void note(std::uint64_t edit, std::map<SlabKey, std::uint64_t>& births) const {
-    for (const SlabKey& key : removed_) births.erase(key);
-    for (const auto& [key, slab] : added_) births[key] = edit;
-  }
-
-  static Json to_json(std::size_t part, const std::string& label, const SlabInfo& slab,
-                      std::uint64_t edit) {
-    return {{"id", slab_name(part, slab.id)},
-            {"low", slab.low},
-            {"high", slab.high},
-            {"label", label},
-            {"edit", edit}};
-  }
-
- private:
-  std::map<SlabKey, std::pair<std::string, SlabInfo>> added_;
-  std::vector<SlabKey> removed_;
-  std::vector<std::string> repairs_;
-};
 
 /// An edit that was applied, or why it was not.
 struct Capture::Applied {
   Answer answer;
   NetChange change;
-  Edit back;  // takes it back
+  LabelledSurfaces::Exchange exchange;
 };
 
 Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
-    : setup_(std::move(setup)), session_(std::move(session)), feed_(feed) {
-  setup_.options.threads = 1;
+    : setup_(std::move(setup)),
+      session_(std::move(session)),
+      feed_(feed),
+      surfaces_(single_threaded(setup_.options)) {
   if (session_ && setup_.observe) repeat_session();
   if (session_ && !setup_.observe) resume_session();
   thread_ = std::thread([this] { run(); });
@@ -129,7 +68,7 @@ void Capture::repeat_session() {
     const Applied applied = apply(edit);
     if (applied.answer.outcome != Answer::Outcome::taken)
       throw cannot_be_applied(number, applied.answer.error);
-    applied.change.note(++edits_, births_);
+    applied.change.note_births(++edits_, births_);
     setup_.observe(applied.answer, *view_now());
   });
 }
@@ -140,19 +79,17 @@ void Capture::resume_session() {
   NetChange none;
   io::StackState stack;
   session_->for_each([&](std::uint64_t number, Edit&& edit) {
-    if (edit.kind != Edit::Kind::remove) add_parts(edit.slice, none);
+    if (edit.kind != Edit::Kind::remove) surfaces_.add_labels(edit.slice, none);
     if (const auto problem = stack.apply(edit)) throw cannot_be_applied(number, *problem);
     last_edits[edit.slice.z] = ++edits_;
   });
   for (const auto& [z, slice] : stack.slices()) {
     try {
-      for (Part& part : parts_)
-        static_cast<void>(part.surface->insert(with_label(slice, part.label)));
+      surfaces_.insert(slice);
     } catch (const Error& error) {
       throw cannot_be_applied(last_edits.at(z), error.what());
     }
   }
-  stack_ = std::move(stack);
   note_births(last_edits);
 }
 
@@ -162,9 +99,17 @@ void Capture::note_births(const std::map<double, std::uint64_t>& last_edits) {
     const auto found = last_edits.find(z);  // not there beyond the ends, for domes
     return found == last_edits.end() ? 0 : found->second;
   };
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    for (const SlabInfo& slab : parts_[i].surface->slabs())
-      births_[{i, slab.id}] = std::max(last(slab.low), last(slab.high));
+  for_each_slab([&](const SlabKey& key, const std::string&, const SlabInfo& slab) {
+    births_[key] = std::max(last(slab.low), last(slab.high));
+  });
+}
+
+template <class Visit>
+void Capture::for_each_slab(Visit visit) const {
+  const auto parts = surfaces_.parts();
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    for (const SlabInfo& slab : parts[i].surface->slabs())
+      visit(SlabKey{i, slab.id}, parts[i].label, slab);
 }
 
 Capture::~Capture() { close(); }
@@ -182,7 +127,7 @@ void Capture::close() {
 
 Capture::Submission Capture::submit(Edit edit, Done done, std::chrono::milliseconds patience,
                                     Origin origin) {
-  const std::size_t points = point_count(edit.slice);
+  const std::size_t points = weight(edit);
   std::unique_lock lock(queue_mutex_);
   const auto has_room = [&] {
     return is_closed_ || queue_.empty() ||
@@ -205,7 +150,7 @@ std::vector<Capture::Job> Capture::next_jobs() {
   // Who observes wants to see the surface after each.
   const std::size_t most = setup_.observe ? 1 : most_at_once;
   while (!queue_.empty() && jobs.size() < most) {
-    points_waiting_ -= point_count(queue_.front().edit.slice);
+    points_waiting_ -= weight(queue_.front().edit);
     jobs.push_back(std::move(queue_.front()));
     queue_.pop_front();
   }
@@ -256,33 +201,30 @@ void Capture::work_off(std::vector<Job> jobs) {
         answer.latency_ms = milliseconds(Clock::now() - jobs[i].begin);
         if (answer.outcome != Answer::Outcome::taken) {
           ++rejected_;
-          all[i].change.note(edits_, births_);
-          // Labels before the one that refused it were changed and changed back: viewers start
-          // again.
-          if (!all[i].change.is_empty()) feed_.publish("");
+          show_undone(all[i].change);
           continue;
         }
-        all[i].change.note(++edits_, births_);
+        all[i].change.note_births(++edits_, births_);
         latencies_.push_back(answer.latency_ms);
         if (latencies_.size() > latency_count) latencies_.pop_front();
         publish(jobs[i].edit, all[i].change, answer.latency_ms);
         if (setup_.observe) setup_.observe(answer, *view_now());
       }
     } else {
+      NetChange undone;
+      for (const Applied& applied : all) undone.add(applied.change);
       for (std::size_t i = jobs.size(); i-- > 0;) {
         Applied& applied = all[i];
         const bool is_taken = applied.answer.outcome == Answer::Outcome::taken;
         const bool comes_again = is_taken && jobs[i].origin.is_held != nullptr;
         if (!comes_again) ++rejected_;
         if (!is_taken) continue;
-        applied.change.note(edits_, births_);
-        apply(applied.back).change.note(edits_, births_);
+        surfaces_.take_back(applied.exchange, undone);
         applied.answer = {Answer::Outcome::not_kept, failure};
         applied.answer.edit = std::move(jobs[i].edit);
       }
-      // Slabs were made anew on the way back: viewers start again.
       view_.reset();
-      feed_.publish("");
+      show_undone(undone);
     }
   }
   for (std::size_t i = 0; i < jobs.size(); ++i)
@@ -293,111 +235,77 @@ void Capture::work_off(std::vector<Job> jobs) {
 
 Capture::Applied Capture::apply(const Edit& edit) {
   Applied applied;
-  applied.back = inverse(edit, stack_);
+  view_.reset();
   try {
-    if (edit.kind != Edit::Kind::remove) add_parts(edit.slice, applied.change);
-    // Where nothing has a surface yet, that is all that can be wrong.
-    if (edit.kind != Edit::Kind::insert && !stack_.slices().contains(edit.slice.z))
-      throw InputError("there is no slice at that height; insert it first");
-    apply_to_parts(edit, applied.change);
+    applied.exchange = surfaces_.apply(edit, applied.change);
   } catch (const Error& error) {
     applied.answer = {Answer::Outcome::rejected, error.what()};
-    view_.reset();
     return applied;
   }
-  static_cast<void>(stack_.apply(edit));
-  view_.reset();
-  applied.change.report(applied.answer);
+  applied.answer.removed = applied.change.removed();
+  applied.answer.added = applied.change.added();
+  applied.answer.repairs = applied.change.repairs();
   return applied;
 }
 
-/// To all labels, or to none.
-void Capture::apply_to_parts(const Edit& edit, NetChange& change) {
-  const auto apply_to = [](Part& part, const Edit& one) {
-    const Slice slice = with_label(one.slice, part.label);
-    if (one.kind == Edit::Kind::insert) return part.surface->insert(slice);
-    if (one.kind == Edit::Kind::replace) return part.surface->replace(slice.z, slice);
-    return part.surface->remove(slice.z);
-  };
-  for (std::size_t i = 0; i < parts_.size(); ++i) {
-    try {
-      change.add(i, parts_[i].label, apply_to(parts_[i], edit));
-    } catch (...) {
-      const Edit back = inverse(edit, stack_);
-      for (std::size_t k = 0; k < i; ++k) change.add(k, parts_[k].label, apply_to(parts_[k], back));
-      throw;
-    }
-  }
-}
-
-/// A label that comes up for the first time has a surface from then on, with all slices so far.
-void Capture::add_parts(const Slice& slice, NetChange& change) {
-  const auto add = [&](const std::string& label) {
-    if (std::ranges::find(parts_, label, &Part::label) != parts_.end()) return;
-    Options options = setup_.options;
-    options.label = label;
-    Part part{label, std::make_unique<Reconstruction>(options)};
-    for (const auto& [z, before] : stack_.slices())
-      change.add(parts_.size(), label, part.surface->insert(with_label(before, label)));
-    parts_.push_back(std::move(part));
-  };
-  if (slice.contours.empty() && parts_.empty()) add("");
-  for (const Contour& contour : slice.contours) add(contour.label);
-}
-
 // --- What others see ---
+
+/// Slabs were made anew on the way back from an edit that was not taken: viewers start again.
+void Capture::show_undone(const NetChange& change) {
+  if (change.is_empty()) return;
+  change.note_births(edits_, births_);
+  feed_.publish("");
+  if (setup_.observe)
+    setup_.observe({.removed = change.removed(), .added = change.added()}, *view_now());
+}
 
 void Capture::publish(const Edit& edit, const NetChange& change, double latency_ms) {
   const Json z = Json::array({edit.slice.z});
   const bool is_removal = edit.kind == Edit::Kind::remove;
   const Json event{{"removed", change.removed()},
-                   {"added", change.added(edits_)},
+                   {"added", change.added_as_json(edits_)},
                    {"slices_removed", is_removal ? z : Json::array()},
                    {"slices_added", is_removal ? Json::array() : z},
-                   {"counts", counts()},
-                   {"volume", volume()},
+                   {"counts", surfaces_.counts()},
+                   {"volume", surfaces_.volume()},
                    {"latency_ms", latency_ms},
                    {"edits", edits_}};
   feed_.publish(event.dump());
 }
 
+/// Made once for all viewers that start between two edits, and not while edits wait for it.
 std::pair<std::string, std::uint64_t> Capture::reset_event() const {
-  const std::lock_guard lock(state_mutex_);
-  Json slabs = Json::array();
-  for (std::size_t i = 0; i < parts_.size(); ++i)
-    for (const SlabInfo& slab : parts_[i].surface->slabs())
-      slabs.push_back(NetChange::to_json(i, parts_[i].label, slab, born({i, slab.id})));
-  Json slices = Json::array();
-  for (const auto& [z, slice] : stack_.slices()) slices.push_back(z);
-  const Json event{{"slabs", std::move(slabs)},
-                   {"slices", std::move(slices)},
-                   {"counts", counts()},
-                   {"volume", volume()},
-                   {"unit", setup_.unit},
-                   {"metres_per_unit", setup_.metres_per_unit},
-                   {"edits", edits_}};
-  return {event.dump(), feed_.last() + 1};
-}
-
-Json Capture::counts() const {
-  std::size_t slabs = 0;
-  std::size_t vertices = 0;
-  std::size_t faces = 0;
-  for (const Part& part : parts_) {
-    slabs += part.surface->slab_count();
-    vertices += part.surface->vertex_count();
-    faces += part.surface->face_count();
+  const std::lock_guard reset_lock(reset_mutex_);
+  struct Shown {
+    SlabKey key;
+    std::string label;
+    SlabInfo slab;
+    std::uint64_t edit;
+  };
+  std::vector<Shown> shown;
+  Json event;
+  std::uint64_t next = 0;
+  {
+    const std::lock_guard lock(state_mutex_);
+    next = feed_.last() + 1;
+    if (reset_ && reset_->second == next) return *reset_;
+    for_each_slab([&](const SlabKey& key, const std::string& label, const SlabInfo& slab) {
+      shown.push_back({key, label, slab, born(key)});
+    });
+    Json slices = Json::array();
+    for (const auto& [z, slice] : surfaces_.stack().slices()) slices.push_back(z);
+    event = {{"slices", std::move(slices)},
+             {"counts", surfaces_.counts()},
+             {"volume", surfaces_.volume()},
+             {"unit", setup_.unit},
+             {"metres_per_unit", setup_.metres_per_unit},
+             {"edits", edits_}};
   }
-  return {{"slices", stack_.slices().size()},
-          {"slabs", slabs},
-          {"vertices", vertices},
-          {"faces", faces}};
-}
-
-double Capture::volume() const {
-  double volume = 0;
-  for (const Part& part : parts_) volume += part.surface->volume();
-  return volume;
+  Json slabs = Json::array();
+  for (const Shown& one : shown) slabs.push_back(to_json(one.key, one.label, one.slab, one.edit));
+  event["slabs"] = std::move(slabs);
+  reset_ = {event.dump(), next};
+  return *reset_;
 }
 
 std::shared_ptr<const CaptureView> Capture::view() {
@@ -408,7 +316,8 @@ std::shared_ptr<const CaptureView> Capture::view() {
 std::shared_ptr<const CaptureView> Capture::view_now() {
   if (view_) return view_;
   auto view = std::make_shared<CaptureView>();
-  for (const Part& part : parts_) view->parts.push_back({part.label, part.surface->snapshot()});
+  for (const LabelledSurfaces::Part& part : surfaces_.parts())
+    view->parts.push_back({part.label, part.surface->snapshot()});
   for (const CaptureView::Part& part : view->parts) {
     if (origin_ || part.snapshot.slab_count() == 0) continue;
     const Patch patch = part.snapshot.patch(0, 1);
@@ -433,15 +342,15 @@ std::uint64_t Capture::born(const SlabKey& slab) const {
 
 std::optional<Slice> Capture::slice(double z) const {
   const std::lock_guard lock(state_mutex_);
-  const auto found = stack_.slices().find(z);
-  if (found == stack_.slices().end()) return {};
-  return found->second;
+  const auto found = surfaces_.stack().find(z);
+  if (found == nullptr) return {};
+  return *found;
 }
 
 std::vector<double> Capture::heights() const {
   const std::lock_guard lock(state_mutex_);
   std::vector<double> heights;
-  for (const auto& [z, slice] : stack_.slices()) heights.push_back(z);
+  for (const auto& [z, slice] : surfaces_.stack().slices()) heights.push_back(z);
   return heights;
 }
 
@@ -468,8 +377,8 @@ Json Capture::status() const {
     return sorted.empty() ? 0 : sorted[(sorted.size() - 1) * percent / 100];
   };
   Json status{{"edits", edits_}, {"rejected", rejected_}};
-  status.update(counts());
-  status["volume"] = volume();
+  status.update(surfaces_.counts());
+  status["volume"] = surfaces_.volume();
   status["latency_ms"] = {
       {"median", at(50)}, {"p99", at(99)}, {"last", latencies_.empty() ? 0 : latencies_.back()}};
   status["queue"] = waiting;

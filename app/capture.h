@@ -18,10 +18,11 @@
 
 #include "app/feed.h"
 #include "app/json.h"
+#include "app/labelled_surfaces.h"
+#include "app/net_change.h"
 #include "io/edit.h"
 #include "io/session.h"
-#include "io/stack_state.h"
-#include "reconstruct/reconstruction.h"
+#include "reconstruct/snapshot.h"
 
 namespace loft::app {
 
@@ -41,9 +42,6 @@ struct Answer {
   double latency_ms = 0;              ///< since it was submitted
   std::optional<io::Edit> edit = {};  ///< back, where it was not kept
 };
-
-/// A slab as viewers know it: the number of its label, in order of arrival, and its id.
-[[nodiscard]] std::string slab_name(std::size_t part, std::uint32_t id);
 
 /// A capture at one time, for output and viewers.
 struct CaptureView {
@@ -121,13 +119,7 @@ class Capture {
     Clock::time_point begin;
     Origin origin;
   };
-  using SlabKey = std::pair<std::size_t, std::uint32_t>;  // part, id
   struct Applied;
-  class NetChange;
-  struct Part {
-    std::string label;
-    std::unique_ptr<Reconstruction> surface;
-  };
 
   void repeat_session();
   void resume_session();
@@ -138,12 +130,11 @@ class Capture {
   void work_off(std::vector<Job> jobs);
   [[nodiscard]] std::shared_ptr<const CaptureView> view_now();
   [[nodiscard]] Applied apply(const io::Edit& edit);
-  void apply_to_parts(const io::Edit& edit, NetChange& change);
-  void add_parts(const Slice& slice, NetChange& change);
+  template <class Visit>
+  void for_each_slab(Visit visit) const;
+  void show_undone(const NetChange& change);
   void publish(const io::Edit& edit, const NetChange& change, double latency_ms);
   [[nodiscard]] std::uint64_t born(const SlabKey& slab) const;
-  [[nodiscard]] Json counts() const;
-  [[nodiscard]] double volume() const;
 
   Setup setup_;
   std::optional<io::Session> session_;
@@ -156,14 +147,16 @@ class Capture {
   bool is_closed_ = false;
 
   mutable std::mutex state_mutex_;  // of all below
-  io::StackState stack_;
-  std::vector<Part> parts_;
+  LabelledSurfaces surfaces_;
   std::shared_ptr<const CaptureView> view_;
   std::optional<Vec3> origin_;
   std::map<SlabKey, std::uint64_t> births_;  // the edit that made each slab
   std::uint64_t edits_ = 0;
   std::uint64_t rejected_ = 0;
   std::deque<double> latencies_;  // of the last edits
+
+  mutable std::mutex reset_mutex_;
+  mutable std::optional<std::pair<std::string, std::uint64_t>> reset_;  // as reset_event()
 
   std::thread thread_;
 };

@@ -46,7 +46,7 @@ void Recorder::add_picture(const Answer& answer, const CaptureView& view) {
   for (const std::string& slab : answer.removed) replay_.remove(time, slab);
   for (const auto& [part, i] : looking_different(answer, view)) {
     const auto& [label, snapshot] = view.parts[part];
-    replay_.add(time, slab_name(part, snapshot.slab(i).id), snapshot, i, label, part);
+    replay_.add(time, slab_name({part, snapshot.slab(i).id}), snapshot, i, label, part);
   }
 }
 

@@ -1,22 +1,24 @@
 // SPDX-License-Identifier: MIT
 #include "app/server.h"
 
-#include <httplib.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <future>
 #include <list>
 #include <optional>
 #include <random>
+#include <regex>
 #include <string_view>
 #include <thread>
 #include <utility>
 #include <vector>
 
 #include "app/assets.h"
+#include "app/http.h"
 #include "app/surfaces.h"
 #include "io/file.h"
 #include "io/slab_glb.h"
@@ -35,35 +37,30 @@ using std::chrono::milliseconds;
 constexpr std::size_t thread_count = 48;
 constexpr int most_viewers = 32;
 
-constexpr milliseconds patience{5000};  // of a POST while the queue is full
+constexpr milliseconds patience{5000};         // of a POST while the queue is full
+constexpr milliseconds body_patience{60'000};  // until all of it is there
 constexpr milliseconds heartbeat{10'000};
 
-void answer(Response& response, int status, const Json& json) {
-  response.status = status;
-  response.set_content(json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n',
-                       "application/json");
-}
-
-void refuse(Response& response, int status, const std::string& why) {
-  answer(response, status, {{"error", why}});
-}
-
-std::optional<double> number(std::string_view text) {
-  double value = 0;
+/// The number that a text is, all of it.
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+  Number value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size()) return {};
   return value;
 }
 
-/// The host without its port: `127.0.0.1`, `[::1]`.
-std::string without_port(const std::string& host) {
-  const std::size_t colon = host.rfind(':');
-  const bool is_bare_v6 = !host.empty() && host.back() == ']';
-  return colon == std::string::npos || is_bare_v6 ? host : host.substr(0, colon);
-}
+/// So many lines, problems of a line or repairs are answered; the others are counted.
+constexpr std::size_t most_lines = 1 << 16;
+constexpr std::size_t most_words = 100;
 
-bool is_loopback(const std::string& host) {
-  return host == "localhost" || host == "[::1]" || host == "::1" || host.starts_with("127.");
+/// The first of some words, and how many others there are.
+std::vector<std::string> cut(std::vector<std::string> words) {
+  if (words.size() <= most_words) return words;
+  const std::size_t more = words.size() - most_words;
+  words.resize(most_words);
+  words.push_back("and " + std::to_string(more) + " more");
+  return words;
 }
 
 /// One line of a body, and what became of it.
@@ -91,14 +88,23 @@ class Server::Routes {
     http_.set_default_headers({{"Cache-Control", "no-store"},
                                {"X-Content-Type-Options", "nosniff"},
                                {"Referrer-Policy", "no-referrer"}});
-    http_.set_pre_routing_handler([this](const Request& request, Response& response) {
-      // A body has to be read before it is refused: else it would be taken for the next request.
-      const bool has_no_body = request.method == "GET" || request.method == "HEAD";
-      return has_no_body && !admit(request, response) ? httplib::Server::HandlerResponse::Handled
-                                                      : httplib::Server::HandlerResponse::Unhandled;
+    // Else two programs could listen on one port, and edits would go to either.
+    http_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
     });
-    http_.set_error_handler([](const Request& request, Response& response) {
-      if (response.body.empty()) explain(request, response);
+    http_.set_pre_routing_handler([this](const Request& request, Response& response) {
+      static const std::array with_body{"POST", "PUT", "PATCH", "DELETE"};
+      // A body has to be read before it is refused: else it would be taken for the next request.
+      if (std::ranges::find(with_body, request.method) != with_body.end())
+        return httplib::Server::HandlerResponse::Unhandled;
+      const bool is_known = request.method == "GET" || request.method == "HEAD";
+      if (!is_known) explain_method(request, response);
+      return is_known && admit(request, response) ? httplib::Server::HandlerResponse::Unhandled
+                                                  : httplib::Server::HandlerResponse::Handled;
+    });
+    http_.set_error_handler([this](const Request& request, Response& response) {
+      if (!response.has_header("Content-Type")) explain(request, response);
     });
     http_.set_exception_handler(
         [](const Request&, Response& response, const std::exception_ptr& thrown) {
@@ -132,7 +138,7 @@ class Server::Routes {
   /// like.
   [[nodiscard]] bool admit(const Request& request, Response& response) const {
     const std::string host = request.get_header_value("Host");
-    if (is_loopback(setup_.host) && !is_loopback(without_port(host))) {
+    if (is_loopback(setup_.host) && !is_loopback(host)) {
       refuse(response, 403, "the host is not this machine; start with --host to allow others");
       return false;
     }
@@ -144,17 +150,22 @@ class Server::Routes {
     return true;
   }
 
-  static void explain(const Request& request, Response& response) {
-    static const std::array paths{"/slices", "/events", "/status", "/"};
-    const bool is_known = std::ranges::find(paths, request.path) != paths.end();
-    if (response.status == 404 && is_known) {
-      response.set_header("Allow", request.path == "/slices" ? "GET, POST" : "GET");
-      return refuse(response, 405, "this is not what can be done with " + request.path);
-    }
-    if (response.status == 413)
-      return refuse(response, 413, "the body is too large; send fewer slices at once");
+  [[nodiscard]] static bool is_known(const std::string& path) {
+    static const std::regex known(R"(/|/slices|/events|/status|/surface\..*|/slabs/.*)");
+    return std::regex_match(path, known);
+  }
+
+  void explain(const Request& request, Response& response) const {
+    if (response.status == 404 && is_known(request.path) && request.method != "GET")
+      return explain_method(request, response);
     if (response.status == 404) return refuse(response, 404, "there is no " + request.path);
     refuse(response, std::max(response.status, 400), "the request was not understood");
+  }
+
+  void explain_method(const Request& request, Response& response) const {
+    const bool takes_edits = capture_ != nullptr && request.path == "/slices";
+    response.set_header("Allow", takes_edits ? "GET, HEAD, POST" : "GET, HEAD");
+    refuse(response, 405, request.method + " is not what can be done with " + request.path);
   }
 
   void add_routes() {
@@ -162,6 +173,16 @@ class Server::Routes {
       http_.Post("/slices",
                  [this](const Request& request, Response& response,
                         const httplib::ContentReader& read) { post(request, response, read); });
+    // The library would keep the bodies of requests that nothing takes.
+    const auto refuse_body = [this](const Request& request, Response& response,
+                                    const httplib::ContentReader& read) {
+      if (!has_body(request) || take_body(request, response, read)) {
+        response.status = 404;
+        if (admit(request, response)) explain(request, response);
+      }
+    };
+    http_.Post(".*", refuse_body).Put(".*", refuse_body).Patch(".*", refuse_body);
+    http_.Delete(".*", refuse_body);
     http_.Get("/slices",
               [this](const Request& request, Response& response) { slices(request, response); });
     http_.Get(R"(/slabs/(\d{1,9})-(\d{1,9})\.glb)",
@@ -189,23 +210,14 @@ class Server::Routes {
   /// Reads the body itself: where a client calls it a form, as curl does unless told otherwise, the
   /// library would take 8 KiB only.
   void post(const Request& request, Response& response, const httplib::ContentReader& read) {
-    if (request.is_multipart_form_data()) {
-      read([](const auto&) { return true; }, [](const char*, std::size_t) { return true; });
-      return refuse(response, 415, "send the edits themselves, a line each, and no form");
-    }
-    std::string body;
-    bool is_too_large = false;
-    const bool is_whole = read([&](const char* bytes, std::size_t size) {
-      // The library has no limit for bodies that come in chunks. What is too much is read, so that
-      // the next request is found behind it, and forgotten.
-      is_too_large = is_too_large || size > setup_.most_bytes - body.size();
-      if (!is_too_large) body.append(bytes, size);
-      return true;
-    });
-    if (is_too_large) response.status = 413;
-    if (!is_whole || is_too_large) return explain(request, response);
-    if (!admit(request, response)) return;
-    std::list<Line> lines = submit(body);
+    if (!has_body(request))
+      return refuse_and_close(response, 411, "a body needs its length, or to come in chunks");
+    const std::optional<std::string> body = take_body(request, response, read);
+    if (!body || !admit(request, response)) return;
+    if (static_cast<std::size_t>(std::ranges::count(*body, '\n')) > most_lines)
+      return refuse(response, 413,
+                    "more than " + std::to_string(most_lines) + " lines; send fewer edits at once");
+    std::list<Line> lines = submit(*body);
     if (lines.empty()) return refuse(response, 400, "no edits in the body; a line each");
     int status = 200;
     Json results = Json::array();
@@ -218,8 +230,29 @@ class Server::Routes {
     answer(response, status, {{"results", std::move(results)}});
   }
 
+  /// The body; none if that was answered already.
+  std::optional<std::string> take_body(const Request& request, Response& response,
+                                       const httplib::ContentReader& read) {
+    if (request.is_multipart_form_data()) {
+      refuse_and_close(response, 415, "send the edits themselves, a line each, and no form");
+      return {};
+    }
+    Body body = read_body(read, {setup_.most_bytes, body_patience}, is_stopping_);
+    if (body.state == Body::State::whole) return std::move(body.text);
+    const auto refuse_it = body.is_read ? refuse : refuse_and_close;
+    if (body.state == Body::State::too_large || response.status == 413) {
+      refuse_it(response, 413, "the body is too large; send fewer slices at once");
+    } else {
+      refuse_and_close(response, 408, "the body did not come in time, or not all of it");
+    }
+    return {};
+  }
+
+  /// Once there is no room for a line those behind it are not taken either: they may rest on it.
   std::list<Line> submit(std::string_view body) {
     std::list<Line> lines;
+    const auto end_of_patience = std::chrono::steady_clock::now() + patience;
+    bool has_room = true;
     std::size_t count = 0;
     while (!body.empty()) {
       const std::size_t end = std::min(body.find('\n'), body.size());
@@ -228,27 +261,35 @@ class Server::Routes {
       ++count;
       if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
       Line& line = lines.emplace_back(Line{count, io::parse_edit_line(text), {}, 200, {}});
-      if (line.read.problems.empty()) {
-        submit(line);
-      } else {
+      if (!line.read.problems.empty()) {
         line.status = 400;
-        for (const std::string& problem : line.read.problems)
+        for (const std::string& problem : cut(std::move(line.read.problems)))
           line.error += (line.error.empty() ? "" : "\n") + problem;
+      } else if (has_room) {
+        has_room = submit(line, end_of_patience);
+      } else {
+        line.status = 503;
+        line.error = "not taken, as a line before it was not; send it again";
       }
     }
     return lines;
   }
 
-  void submit(Line& line) {
+  /// Whether there was room for it.
+  bool submit(Line& line, std::chrono::steady_clock::time_point end_of_patience) {
     auto promise = std::make_shared<std::promise<Answer>>();
     line.answer = promise->get_future();
+    const auto left = std::chrono::duration_cast<milliseconds>(end_of_patience -
+                                                               std::chrono::steady_clock::now());
     const auto submission = capture_->submit(
-        line.read.edit, [promise](const Answer& given) { promise->set_value(given); }, patience);
-    if (submission == Capture::Submission::taken) return;
+        std::move(line.read.edit), [promise](const Answer& given) { promise->set_value(given); },
+        std::max(left, milliseconds(0)));
+    if (submission == Capture::Submission::taken) return true;
     line.status = 503;
     line.error = submission == Capture::Submission::full
                      ? "too many edits are waiting; send it again"
                      : "the capture has ended";
+    return false;
   }
 
   [[nodiscard]] static Json result(Line& line) {
@@ -260,7 +301,7 @@ class Server::Routes {
       if (given.outcome == Answer::Outcome::taken) {
         json["removed"] = given.removed;
         json["added"] = given.added;
-        json["repairs"] = given.repairs;
+        json["repairs"] = cut(given.repairs);
         json["latency_ms"] = given.latency_ms;
         return json;
       }
@@ -275,8 +316,8 @@ class Server::Routes {
 
   void slices(const Request& request, Response& response) const {
     if (!request.has_param("z")) return answer(response, 200, {{"slices", shown_.heights()}});
-    const auto z = number(request.get_param_value("z"));
-    if (!z) return refuse(response, 400, "z is no number");
+    const auto z = number<double>(request.get_param_value("z"));
+    if (!z || !std::isfinite(*z)) return refuse(response, 400, "z is no number");
     const auto slice = shown_.slice(*z);
     if (!slice) return refuse(response, 404, "there is no slice at that height");
     std::string line;
@@ -332,8 +373,8 @@ class Server::Routes {
   /// The event after one that this server has sent; 0 for others.
   [[nodiscard]] std::uint64_t next_event(std::string_view id) const {
     if (!id.starts_with(token_)) return 0;
-    const auto last = number(id.substr(token_.size()));
-    return last && *last >= 0 ? static_cast<std::uint64_t>(*last) + 1 : 0;
+    const auto last = number<std::uint64_t>(id.substr(token_.size()));
+    return last ? *last + 1 : 0;
   }
 
   /// Sends one event, or nothing for a while. False ends the stream: a reader that takes nothing
@@ -388,11 +429,15 @@ class Server::Routes {
 
 Server::Server(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
     : routes_(std::make_unique<Routes>(setup, shown, feed, capture)) {
+  errno = 0;
   const int port = routes_->bind();
   if (port < 0)
-    throw Error("cannot listen on " + setup.host + " port " + std::to_string(setup.port) +
-                "; it is in use, or not an address of this machine");
-  url_ = "http://" + setup.host + ':' + std::to_string(port) + '/';
+    throw Error("cannot listen on " + setup.host + " port " + std::to_string(setup.port) + ": " +
+                (errno == 0 ? "there is no such address" : io::last_cause()) +
+                "; choose another with --host and --port");
+  const bool is_v6 = setup.host.find(':') != std::string::npos;
+  url_ =
+      "http://" + (is_v6 ? '[' + setup.host + ']' : setup.host) + ':' + std::to_string(port) + '/';
   routes_->serve();
 }
 

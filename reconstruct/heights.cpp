@@ -11,7 +11,8 @@
 
 namespace loft {
 
-std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index) {
+std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
+                                  const std::optional<std::string>& label) {
   std::vector<Defect> found;
   const auto note = [&](std::optional<std::uint32_t> contour, std::optional<std::uint32_t> point,
                         const char* message) {
@@ -20,6 +21,7 @@ std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index) {
   if (!(std::abs(slice.z) <= cdt::Triangulation::largest_coordinate))
     note({}, {}, "the height is not a finite number below 1e75; correct it or leave the slice out");
   for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
+    if (label && slice.contours[c].label != *label) continue;
     const auto& points = slice.contours[c].points;
     for (std::uint32_t p = 0; p < points.size(); ++p)
       if (!cdt::Triangulation::is_usable(points[p].x) ||

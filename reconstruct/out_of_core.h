@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "reconstruct/defect.h"
@@ -36,9 +38,10 @@ struct OutOfCoreReport {
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
 };
 
-/// What is wrong with the numbers of a slice (DefectKind::not_finite); `index` is its number in the
-/// stack.
-[[nodiscard]] std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index);
+/// What is wrong with the numbers of a slice (DefectKind::not_finite), of its contours with one
+/// label or of all; `index` is its number in the stack.
+[[nodiscard]] std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
+                                                const std::optional<std::string>& label = {});
 
 /// Makes the surface of a stack larger than memory slab by slab, from the lowest slice upwards, and
 /// passes it on piece by piece: the vertices and faces of reconstruct(), in the same order.

@@ -32,20 +32,29 @@ Reconstruction::Reconstruction(Reconstruction&&) noexcept = default;
 Reconstruction& Reconstruction::operator=(Reconstruction&&) noexcept = default;
 
 SurfaceChange Reconstruction::insert(Slice slice) {
-  const double z = slice.z;
+  return insert(std::make_shared<const Slice>(std::move(slice)));
+}
+
+SurfaceChange Reconstruction::insert(std::shared_ptr<const Slice> slice) {
+  const double z = slice->z;
   const Slice* there = find(z);
-  if (there != nullptr)
-    slice.contours.insert(slice.contours.begin(), there->contours.begin(), there->contours.end());
-  return apply(*stack_, {{z, std::move(slice), there != nullptr}});
+  if (there == nullptr) return apply(*stack_, {{z, std::move(slice)}});
+  Slice both = *there;
+  both.contours.insert(both.contours.end(), slice->contours.begin(), slice->contours.end());
+  return apply(*stack_, {{z, std::make_shared<const Slice>(std::move(both)), true}});
 }
 
 SurfaceChange Reconstruction::replace(double z, Slice slice) {
+  return replace(z, std::make_shared<const Slice>(std::move(slice)));
+}
+
+SurfaceChange Reconstruction::replace(double z, std::shared_ptr<const Slice> slice) {
   if (find(z) == nullptr) throw no_slice(z);
-  if (slice.z == z) return apply(*stack_, {{z, std::move(slice)}});
-  if (find(slice.z) != nullptr)
-    throw InputError("there is a slice at z = " + exact(slice.z) +
+  const double new_z = slice->z;
+  if (new_z == z) return apply(*stack_, {{z, std::move(slice)}});
+  if (find(new_z) != nullptr)
+    throw InputError("there is a slice at z = " + exact(new_z) +
                      " already; remove it first, or replace it");
-  const double new_z = slice.z;
   return apply(*stack_, {{z}, {new_z, std::move(slice)}});
 }
 
@@ -54,7 +63,7 @@ SurfaceChange Reconstruction::replace(std::vector<Slice> slices) {
   for (Slice& slice : slices) {
     if (find(slice.z) == nullptr) throw no_slice(slice.z);
     const double z = slice.z;
-    edits.push_back({z, std::move(slice)});
+    edits.push_back({z, std::make_shared<const Slice>(std::move(slice))});
   }
   std::ranges::sort(edits, {}, &SliceEdit::z);
   const auto twice = std::ranges::adjacent_find(edits, {}, &SliceEdit::z);
@@ -77,7 +86,7 @@ SurfaceChange Reconstruction::move_contour(double z, std::size_t contour,
     throw InputError("the slice at z = " + exact(z) + " has no contour " + std::to_string(contour));
   Slice slice = *there;
   slice.contours[contour].points = std::move(points);
-  return apply(*stack_, {{z, std::move(slice)}});
+  return replace(z, std::move(slice));
 }
 
 const Surface& Reconstruction::surface() const { return stack_->surface.surface(); }

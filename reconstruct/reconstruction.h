@@ -49,10 +49,13 @@ class Reconstruction {
   /// no usable size, a height too near to another one.
   /// Cost: that of making the slabs beside it, whatever the number of slices.
   SurfaceChange insert(Slice slice);
+  /// The same with a slice that others have, too: such as the surfaces of other labels.
+  SurfaceChange insert(std::shared_ptr<const Slice> slice);
   /// Puts a slice into the place of the one at height z; it may have another height.
   /// Only what its contours change is made anew.
   /// Throws as insert(), and where there is no slice at z, or another one at the new height.
   SurfaceChange replace(double z, Slice slice);
+  SurfaceChange replace(double z, std::shared_ptr<const Slice> slice);
   /// Puts each slice into the place of the one at its height, all as one edit: a shape that moves.
   /// Each slab is made once, so that this takes about half the time of one after the other.
   /// Throws as replace(), and where two slices have the same height.

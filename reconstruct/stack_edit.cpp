@@ -98,7 +98,8 @@ class StackEdit {
     std::vector<Defect> fatal;
     for (const SliceEdit& edit : edits_) {
       if (!edit.slice) continue;
-      std::ranges::move(find_unusable(*edit.slice, stack_.next_number), std::back_inserter(fatal));
+      std::ranges::move(find_unusable(*edit.slice, stack_.next_number, stack_.options.label),
+                        std::back_inserter(fatal));
       check_gap(edit.z, fatal);
     }
     if (!fatal.empty()) throw InputError(std::move(fatal));
@@ -141,7 +142,7 @@ class StackEdit {
 
   [[nodiscard]] Station make_station(SliceEdit edit) {
     Station station;
-    station.slice = std::make_shared<const Slice>(std::move(*edit.slice));
+    station.slice = std::move(edit.slice);
     const auto there = stack_.stations.find(edit.z);
     const bool is_known = there != stack_.stations.end();
     station.number = is_known ? there->second.number : stack_.next_number;

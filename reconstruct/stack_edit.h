@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <optional>
+#include <memory>
 #include <vector>
 
 #include "reconstruct/live_stack.h"
@@ -13,7 +13,7 @@ namespace loft {
 /// What is at a height from then on, if anything.
 struct SliceEdit {
   double z = 0;
-  std::optional<Slice> slice = {};
+  std::shared_ptr<const Slice> slice = {};
   bool is_merged = false;  ///< with contours that were there
 };
 

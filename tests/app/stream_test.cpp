@@ -294,8 +294,18 @@ TEST_F(Posting, SaysWhatIsWrongWithARequest) {
   expect(client_->Get("/surface.glb"), 404, "no surface yet");
   expect(client_->Get("/surface.doc"), 404, "");
   expect(client_->Get("/../etc/passwd"), 404, "there is no");
+  expect(client_->Get("/slices?z=nan"), 400, "no number");
   expect(client_->Delete("/slices"), 405, "not what can be done");
+  expect(client_->Put("/surface.glb", "x", "text/plain"), 405, "PUT is not what can be done");
+  expect(client_->Options("/slices"), 405, "OPTIONS is not what can be done");
+  expect(client_->Post("/nothing", "x", "text/plain"), 404, "there is no /nothing");
+  expect(post(std::string(70'000, '\n')), 413, "more than 65536 lines");
   expect(client_->Get("/status", {{"Host", "example.com"}}), 403, "not this machine");
+  for (const char* host : {"127.example.com", "127.0.0.1.example.com:80", "[::2]", "localhost.x"})
+    expect(client_->Post("/slices", {{"Host", host}}, leaning(1), "text/plain"), 403,
+           "not this machine");
+  for (const char* host : {"127.0.0.1", "127.1.2.3:80", "[::1]:80", "LOCALHOST", "localhost.:80"})
+    expect(client_->Get("/status", {{"Host", host}}), 200, "");
   expect(client_->Post("/slices", {{"Origin", "http://example.com"}}, leaning(1), "text/plain"),
          403, "other sites");
   EXPECT_EQ(json::parse(client_->Get("/status")->body)["slices"], 0);
@@ -312,18 +322,52 @@ TEST_F(Posting, TakesWhatCurlCallsAForm) {
   EXPECT_EQ(form->status, 415);
 }
 
-TEST_F(Posting, RefusesLargeBodiesThatComeInChunks) {
-  std::size_t sent = 0;
-  const auto send = [&](std::size_t, httplib::DataSink& sink) {
-    const std::string blanks(1 << 16, ' ');
-    sent += blanks.size();
-    sink.write(blanks.data(), blanks.size());
-    if (sent >= std::size_t{8} << 20U) sink.done();
-    return true;
-  };
-  const auto answer = client_->Post("/slices", httplib::Headers{}, send, "application/x-ndjson");
+TEST_F(Posting, SaysThatThePortIsInUse) {
+  const std::string port = std::to_string(running_.port());
+  const Outcome second = run(folder_, "stream --no-input --port " + port);
+  EXPECT_EQ(second.exit_code, 4);
+  EXPECT_THAT(second.err, AllOf(HasSubstr("port " + port), HasSubstr("in use")));
+}
+
+TEST_F(Posting, SaysSoMuchOfALineAndCountsTheRest) {
+  std::string contours = "[]";
+  for (int i = 0; i < 999; ++i) contours += ",[]";
+  const auto repaired = post("{\"z\":1,\"contours\":[" + contours + "]}");
+  ASSERT_TRUE(repaired);
+  const json repairs = json::parse(repaired->body)["results"][0]["repairs"];
+  ASSERT_EQ(repairs.size(), 101U);
+  EXPECT_EQ(repairs.back(), "and 900 more");
+  std::string points = "[1,null]";
+  for (int i = 0; i < 999; ++i) points += ",[1,null]";
+  const auto refused = post("{\"z\":1,\"contours\":[[" + points + "]]}");
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->status, 400);
+  EXPECT_THAT(refused->body, HasSubstr("and 900 more"));
+}
+
+TEST_F(Posting, SaysThatASliceCameTwice) {
+  const auto answer = post(leaning(1) + leaning(1));
   ASSERT_TRUE(answer);
-  EXPECT_EQ(answer->status, 413);
+  EXPECT_EQ(answer->status, 200);
+  const json results = json::parse(answer->body)["results"];
+  EXPECT_TRUE(results[0]["repairs"].empty());
+  EXPECT_THAT(results[1]["repairs"].dump(), HasSubstr("where there was a slice already"));
+}
+
+TEST_F(Posting, RefusesLargeBodiesThatComeInChunks) {
+  for (const char* path : {"/slices", "/nothing"}) {
+    std::size_t sent = 0;
+    const auto send = [&](std::size_t, httplib::DataSink& sink) {
+      const std::string blanks(1 << 16, ' ');
+      sent += blanks.size();
+      sink.write(blanks.data(), blanks.size());
+      if (sent >= std::size_t{3} << 20U) sink.done();
+      return true;
+    };
+    const auto answer = client_->Post(path, httplib::Headers{}, send, "application/x-ndjson");
+    ASSERT_TRUE(answer);
+    EXPECT_EQ(answer->status, 413);
+  }
   EXPECT_EQ(json::parse(client_->Get("/status")->body)["slices"], 0);
 }
 

@@ -221,6 +221,29 @@ TEST(Reconstruction, SlicesThatAreLeftApartAreReported) {
   EXPECT_EQ(difference(live, options), "");
 }
 
+TEST(Reconstruction, SurfacesOfSeveralLabelsShareTheirSlices) {
+  const auto labelled = [](Contour contour, const char* label) {
+    contour.label = label;
+    return contour;
+  };
+  Reconstruction one({.label = "one"});
+  Reconstruction two({.label = "two"});
+  for (const double z : {1, 2}) {
+    const auto slice = std::make_shared<const Slice>(Slice{
+        z, {labelled(stacks::circle(6, 1), "one"), labelled(stacks::square(5, {9, 9}), "two")}});
+    one.insert(slice);
+    two.insert(slice);
+    EXPECT_EQ(one.find(z), slice.get());
+    EXPECT_EQ(two.find(z), slice.get());
+  }
+  EXPECT_EQ(one.face_count(), 20U);
+  EXPECT_EQ(two.face_count(), 12U);
+  const auto bad =
+      std::make_shared<const Slice>(Slice{3, {labelled({{{0, 0}, {NAN, 1}, {2, 1}}, ""}, "two")}});
+  EXPECT_NO_THROW(one.insert(bad));  // it has nothing of it
+  EXPECT_THROW(two.insert(bad), InputError);
+}
+
 TEST(Reconstruction, SnapshotsStayAsTheyWere) {
   Reconstruction live;
   for (const Slice& slice : stacks::sphere(6, 12)) live.insert(slice);

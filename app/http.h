@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <httplib.h>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <string>
+
+#include "app/json.h"
+
+namespace loft::app {
+
+void answer(httplib::Response& response, int status, const Json& json);
+
+/// `{"error": why}`
+void refuse(httplib::Response& response, int status, const std::string& why);
+
+/// The same, and then the connection is closed: what is left of the request is not read.
+void refuse_and_close(httplib::Response& response, int status, const std::string& why);
+
+/// Whether a name, as a Host header or the user gives it, with or without a port, is this machine's
+/// own: `localhost` or a loopback address.
+[[nodiscard]] bool is_loopback(const std::string& host);
+
+/// Whether a body comes with the request: without its length its end could not be seen.
+[[nodiscard]] bool has_body(const httplib::Request& request);
+
+/// The body of a request, as far as it may be.
+struct Body {
+  enum class State {
+    whole,
+    too_large,
+    cut_off,  ///< too slow, or the connection failed
+  };
+  State state = State::whole;
+  bool is_read = true;  ///< to its end: the next request is behind it
+  std::string text;
+};
+
+struct BodyLimits {
+  std::size_t most_bytes;
+  std::chrono::milliseconds patience;  ///< for all of it
+};
+
+/// Reads a body with little memory, whatever it says of itself. Ends early when `is_stopping`.
+[[nodiscard]] Body read_body(const httplib::ContentReader& read, const BodyLimits& limits,
+                             const std::atomic<bool>& is_stopping);
+
+}  // namespace loft::app

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: MIT
+#include "app/net_change.h"
+
+namespace loft::app {
+
+std::string slab_name(const SlabKey& slab) {
+  return std::to_string(slab.first) + '-' + std::to_string(slab.second);
+}
+
+Json to_json(const SlabKey& key, const std::string& label, const SlabInfo& slab,
+             std::uint64_t edit) {
+  return {{"id", slab_name(key)},
+          {"low", slab.low},
+          {"high", slab.high},
+          {"label", label},
+          {"edit", edit}};
+}
+
+void NetChange::add(std::size_t part, const std::string& label, const SurfaceChange& change) {
+  for (const std::uint32_t id : change.removed) remove({part, id});
+  for (const SlabInfo& slab : change.added) added_[{part, slab.id}] = {label, slab};
+  for (const Defect& repair : change.repairs) note(describe(repair));
+}
+
+void NetChange::add(const NetChange& later) {
+  for (const SlabKey& slab : later.removed_) remove(slab);
+  for (const auto& [key, slab] : later.added_) added_[key] = slab;
+  repairs_.insert(repairs_.end(), later.repairs_.begin(), later.repairs_.end());
+}
+
+void NetChange::remove(const SlabKey& slab) {
+  if (added_.erase(slab) == 0) removed_.push_back(slab);
+}
+
+std::vector<std::string> NetChange::removed() const {
+  std::vector<std::string> names;
+  for (const SlabKey& slab : removed_) names.push_back(slab_name(slab));
+  return names;
+}
+
+std::vector<std::string> NetChange::added() const {
+  std::vector<std::string> names;
+  for (const auto& [key, slab] : added_) names.push_back(slab_name(key));
+  return names;
+}
+
+Json NetChange::added_as_json(std::uint64_t edit) const {
+  Json all = Json::array();
+  for (const auto& [key, slab] : added_) all.push_back(to_json(key, slab.first, slab.second, edit));
+  return all;
+}
+
+void NetChange::note_births(std::uint64_t edit, std::map<SlabKey, std::uint64_t>& births) const {
+  for (const SlabKey& key : removed_) births.erase(key);
+  for (const auto& [key, slab] : added_) births[key] = edit;
+}
+
+}  // namespace loft::app
