@@ -125,7 +125,8 @@ void Capture::close() {
 
 // --- The queue ---
 
-Capture::Submission Capture::submit(Edit edit, Done done, std::chrono::milliseconds patience) {
+Capture::Submission Capture::submit(Edit edit, Done done, std::chrono::milliseconds patience,
+                                    Origin origin) {
   const std::size_t points = weight(edit);
   std::unique_lock lock(queue_mutex_);
   const auto has_room = [&] {
@@ -136,7 +137,7 @@ Capture::Submission Capture::submit(Edit edit, Done done, std::chrono::milliseco
   if (!queue_changed_.wait_for(lock, patience, has_room)) return Submission::full;
   if (is_closed_) return Submission::closed;
   points_waiting_ += points;
-  queue_.push_back({std::move(edit), std::move(done), Clock::now()});
+  queue_.push_back({std::move(edit), std::move(done), Clock::now(), std::move(origin)});
   queue_changed_.notify_all();
   return Submission::taken;
 }
@@ -161,18 +162,34 @@ void Capture::run() {
   for (auto jobs = next_jobs(); !jobs.empty(); jobs = next_jobs()) work_off(std::move(jobs));
 }
 
+/// Those of a source that waits.
+void Capture::give_back_held(std::vector<Job>& jobs) {
+  const auto first = std::stable_partition(jobs.begin(), jobs.end(), [](const Job& job) {
+    return job.origin.is_held == nullptr || !*job.origin.is_held;
+  });
+  for (auto job = first; job != jobs.end(); ++job) {
+    Answer answer{Answer::Outcome::not_kept};
+    answer.edit = std::move(job->edit);
+    job->done(answer);
+  }
+  jobs.erase(first, jobs.end());
+}
+
 /// Applies some edits, keeps them, answers.
 void Capture::work_off(std::vector<Job> jobs) {
+  give_back_held(jobs);
   std::vector<Applied> all;
   std::vector<Edit> taken;
+  std::optional<io::InputPosition> position;
   for (const Job& job : jobs) {
+    if (job.origin.position) position = job.origin.position;
     const std::lock_guard lock(state_mutex_);
     all.push_back(apply(job.edit));
     if (all.back().answer.outcome == Answer::Outcome::taken) taken.push_back(job.edit);
   }
   std::string failure;
   try {
-    if (session_) session_->append(taken);
+    if (session_) session_->append(taken, position);
   } catch (const Error& error) {
     failure = error.what();
   }
@@ -198,10 +215,13 @@ void Capture::work_off(std::vector<Job> jobs) {
       for (const Applied& applied : all) undone.add(applied.change);
       for (std::size_t i = jobs.size(); i-- > 0;) {
         Applied& applied = all[i];
-        ++rejected_;
-        if (applied.answer.outcome != Answer::Outcome::taken) continue;
+        const bool is_taken = applied.answer.outcome == Answer::Outcome::taken;
+        const bool comes_again = is_taken && jobs[i].origin.is_held != nullptr;
+        if (!comes_again) ++rejected_;
+        if (!is_taken) continue;
         surfaces_.take_back(applied.exchange, undone);
         applied.answer = {Answer::Outcome::not_kept, failure};
+        applied.answer.edit = std::move(jobs[i].edit);
       }
       view_.reset();
       show_undone(undone);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <cstdint>
@@ -38,7 +39,8 @@ struct Answer {
   std::vector<std::string> removed = {};  ///< slabs, as viewers know them
   std::vector<std::string> added = {};
   std::vector<std::string> repairs = {};
-  double latency_ms = 0;  ///< since it was submitted
+  double latency_ms = 0;              ///< since it was submitted
+  std::optional<io::Edit> edit = {};  ///< back, where it was not kept
 };
 
 /// A capture at one time, for output and viewers.
@@ -69,6 +71,12 @@ class Capture {
   };
   enum class Submission { taken, full, closed };
   using Done = std::function<void(const Answer&)>;
+  /// What edits bring along that come from a file, or from a source that can wait.
+  struct Origin {
+    std::optional<io::InputPosition> position = {};  ///< behind the edit; kept with it
+    /// As long as it is true the edit is not kept, untried: one before it was not.
+    const std::atomic<bool>* is_held = nullptr;
+  };
 
   /// Applies what is in the session first. Throws FileError, and InputError where the session does
   /// not fit to the options.
@@ -78,7 +86,10 @@ class Capture {
   Capture& operator=(const Capture&) = delete;
 
   /// `done` is called once, by the capture's thread, if the edit was taken on.
-  Submission submit(io::Edit edit, Done done, std::chrono::milliseconds patience);
+  Submission submit(io::Edit edit, Done done, std::chrono::milliseconds patience) {
+    return submit(std::move(edit), std::move(done), patience, {});
+  }
+  Submission submit(io::Edit edit, Done done, std::chrono::milliseconds patience, Origin origin);
   /// Takes no more; returns when everything that waits is done.
   void close();
 
@@ -106,6 +117,7 @@ class Capture {
     io::Edit edit;
     Done done;
     Clock::time_point begin;
+    Origin origin;
   };
   struct Applied;
 
@@ -114,6 +126,7 @@ class Capture {
   void note_births(const std::map<double, std::uint64_t>& last_edits);
   void run();
   [[nodiscard]] std::vector<Job> next_jobs();
+  static void give_back_held(std::vector<Job>& jobs);
   void work_off(std::vector<Job> jobs);
   [[nodiscard]] std::shared_ptr<const CaptureView> view_now();
   [[nodiscard]] Applied apply(const io::Edit& edit);

@@ -3,9 +3,12 @@
 
 namespace loft::app {
 
-/// From now on the first interrupt (SIGINT, SIGTERM) is only noted, so that the work can stop where
-/// nothing is left behind; a second one ends the program at once.
+/// From now on the first interrupt (SIGINT, SIGTERM, or SIGHUP unless it is ignored, as by nohup)
+/// is only noted, so that the work can stop where nothing is left behind; a second one ends the
+/// program at once.
 void catch_interrupts();
+/// From now on who reads our words may leave: they go nowhere then, and the work goes on.
+void ignore_closed_pipes();
 
 [[nodiscard]] bool is_interrupted();
 

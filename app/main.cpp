@@ -238,7 +238,7 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
       ->check(CLI::Validator(complain_of_rate, ""));
   sub->add_option("--session", command.session,
                   "Keep every edit in this file before it is acknowledged; if it is there, go on "
-                  "from it")
+                  "from it, and in IN where it was")
       ->type_name("FILE");
   sub->add_flag_callback(
       "--view", [&command] { command.serves = true; },

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
 #include <array>
-#include <atomic>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -13,8 +12,10 @@
 #include "app/commands.h"
 #include "app/edit_source.h"
 #include "app/feed.h"
+#include "app/intake.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
+#include "app/place.h"
 #include "app/recorder.h"
 #include "app/report.h"
 #include "app/saver.h"
@@ -70,11 +71,21 @@ Capture::Setup setup_of(const StreamCommand& command) {
   return setup;
 }
 
+bool is_file(const std::optional<path>& input) { return input && *input != "-"; }
+
+/// How far the session has the input already.
+std::optional<io::InputPosition> position_of(const StreamCommand& command,
+                                             const std::optional<io::Session>& session) {
+  if (!session || !is_file(command.input)) return {};
+  return session->input_position(EditSource::full_name(*command.input));
+}
+
 /// A stream while it runs.
 class Stream {
  public:
   Stream(const StreamCommand& command, std::optional<io::Session> session)
       : command_(command),
+        input_position_(position_of(command, session)),
         terminal_(command.quiet),
         recorder_(metres_per_unit(command.unit).value_or(0.001), command.replay_rate),
         capture_(setup(), std::move(session), feed_),
@@ -112,40 +123,71 @@ class Stream {
   }
 
   void read_input() {
-    EditSource source = command_.input && *command_.input != "-"
-                            ? EditSource::file(*command_.input, command_.follows)
-                            : EditSource::standard_input();
-    std::string line;
-    while (!is_interrupted()) {
-      switch (source.next(line, tick)) {
-        case EditSource::State::line:
-          take(source, line);
-          break;
-        case EditSource::State::ended:
-          return;
-        case EditSource::State::waiting:
-          break;
-      }
-      look_after_outputs();
+    EditSource source(source_setup());
+    try {
+      while (!is_interrupted() && read_some(source)) look_after_outputs();
+    } catch (const io::FileError& error) {
+      complain(error.what());
+      is_unreadable_ = true;
     }
+    if (const std::size_t bytes = source.unfinished_bytes(); bytes > 0)
+      say(source.name() + ": the last " + grouped(bytes) +
+          " bytes were left out: their line has no end yet");
+    while (!is_interrupted() && !intake_.is_idle(tick)) look_after_outputs();
+  }
+
+  [[nodiscard]] EditSource::Setup source_setup() {
+    EditSource::Setup setup;
+    if (is_file(command_.input)) {
+      setup.path = *command_.input;
+      setup.is_followed = command_.follows;
+      setup.start = input_position_;
+    }
+    setup.say = [this](const std::string& words) { say(words); };
+    return setup;
+  }
+
+  /// Whether there may be more.
+  bool read_some(EditSource& source) {
+    std::string line;
+    switch (source.next(line, tick)) {
+      case EditSource::State::line:
+        take(source, line);
+        return true;
+      case EditSource::State::too_long:
+        complain(place_in(source) +
+                 "the line is longer than 256 MiB and is left out; slices are a line each");
+        ++bad_lines_;
+        return true;
+      case EditSource::State::waiting:
+        return true;
+      case EditSource::State::ended:
+        break;
+    }
+    return false;
+  }
+
+  [[nodiscard]] static std::string place_in(const EditSource& source) {
+    return source.name() + ':' + std::to_string(source.line_number()) + ": ";
   }
 
   void take(const EditSource& source, const std::string& line) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) return;
-    const std::string place = source.name() + ':' + std::to_string(source.line_number()) + ": ";
+    const std::string place = place_in(source);
     io::EditLine read = io::parse_edit_line(line);
-    for (const std::string& problem : read.problems) complain(place + problem);
+    for (const std::string& problem : read.problems) complain(with_place(problem, place));
     if (!read.problems.empty()) {
       ++bad_lines_;
       return;
     }
-    const auto done = [this, place](const Answer& answer) {
-      if (answer.outcome != Answer::Outcome::taken) complain(place + answer.error);
-      if (answer.outcome == Answer::Outcome::not_kept) is_failing_ = true;
-    };
+    const Intake::Line edit{std::move(read.edit), place, source.position()};
     // What comes faster than it can be worked on waits where it comes from.
-    while (!is_interrupted() && capture_.submit(read.edit, done, tick) == Capture::Submission::full)
-      look_after_outputs();
+    while (!is_interrupted() && !intake_.hand_over(edit, tick)) look_after_outputs();
+  }
+
+  void say(const std::string& words) {
+    const std::lock_guard lock(words_mutex_);
+    terminal_.say(words);
   }
 
   /// From any thread.
@@ -198,7 +240,11 @@ class Stream {
                   grouped(status["slices"].get<std::size_t>()) + " slices, " +
                   grouped(status["faces"].get<std::size_t>()) + " triangles");
     if (command_.json) print_report(status, rejected);
-    if (is_failing_) return ExitCode::cannot_write;
+    if (const std::size_t count = intake_.held_count(); count > 0) {
+      complain(grouped(count) + " edits were not kept; send them again");
+      return ExitCode::cannot_write;
+    }
+    if (is_unreadable_) return ExitCode::bad_input;
     if (rejected > 0 && command_.strict) return ExitCode::bad_input;
     return ExitCode::ok;
   }
@@ -214,6 +260,7 @@ class Stream {
   }
 
   const StreamCommand& command_;
+  std::optional<io::InputPosition> input_position_;  // where reading goes on
   Terminal terminal_;
   std::mutex words_mutex_;
   Feed feed_;
@@ -223,7 +270,8 @@ class Stream {
   std::optional<Server> server_;
   std::uint64_t bad_lines_ = 0;
   std::uint64_t saved_edits_ = 0;
-  std::atomic<bool> is_failing_ = false;
+  bool is_unreadable_ = false;
+  Intake intake_{capture_, [this](const std::string& words) { complain(words); }};
   Saver saver_;  // looks at the capture: ends before it
 };
 
@@ -233,6 +281,7 @@ ExitCode run(const StreamCommand& wanted) {
   StreamCommand command = wanted;
   check_outputs(command);
   catch_interrupts();
+  ignore_closed_pipes();
   catch_output_requests();
   std::optional<io::Session> session = open_session(command);
   return Stream(command, std::move(session)).run();

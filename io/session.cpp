@@ -9,6 +9,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/checksum.h"
 #include "io/file.h"
 
 namespace loft::io {
@@ -19,15 +20,9 @@ namespace {
 constexpr int application_id = 0x6c6f6674;
 constexpr int schema_version = 1;
 
-/// FNV-1a (Fowler, Noll, Vo, 1991). Chained from row to row, so that it tells lost and swapped rows
-/// from the right ones, too.
-std::uint64_t checksum(std::uint64_t before, std::string_view line) {
-  std::uint64_t sum = 0xcbf29ce484222325U ^ before;
-  for (const char c : line) {
-    sum ^= static_cast<unsigned char>(c);
-    sum *= 0x100000001b3U;
-  }
-  return sum;
+/// Chained from row to row, so that it tells lost and swapped rows from the right ones, too.
+std::uint64_t chained(std::uint64_t before, std::string_view line) {
+  return checksum(line, no_checksum ^ before);
 }
 
 /// What SQLite says, and the way out.
@@ -91,13 +86,14 @@ class Session::Journal {
     if (access == Access::write) prepare_to_write();
   }
 
-  void append(std::span<const Edit> edits) {
-    if (edits.empty()) return;
+  void append(std::span<const Edit> edits, const std::optional<InputPosition>& input) {
+    if (edits.empty() && !input) return;
     execute("begin immediate");
     const std::uint64_t count = count_;
     const std::uint64_t sum = sum_;
     try {
       for (const Edit& edit : edits) insert(to_line(edit));
+      if (input) keep(*input);
       execute("commit");
     } catch (...) {
       // Some errors have rolled back already: then this one does nothing.
@@ -115,7 +111,7 @@ class Session::Journal {
     while (step(rows)) {
       const auto number = static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 0));
       const std::string_view line = text(rows, 1);
-      sum = checksum(sum, line);
+      sum = chained(sum, line);
       if (number != expected ||
           sum != static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 2)))
         damaged(expected);
@@ -129,6 +125,14 @@ class Session::Journal {
   [[nodiscard]] std::uint64_t count() const {
     const Statement row = prepare("select count(*) from edits");
     return step(row) ? static_cast<std::uint64_t>(sqlite3_column_int64(row.get(), 0)) : 0;
+  }
+
+  [[nodiscard]] std::optional<InputPosition> input_position(const std::string& path) const {
+    const Statement row = prepare("select place, checksum from inputs where path = ?");
+    bind(row, 1, path);
+    if (!step(row)) return {};
+    return InputPosition{path, static_cast<std::uint64_t>(sqlite3_column_int64(row.get(), 0)),
+                         static_cast<std::uint64_t>(sqlite3_column_int64(row.get(), 1))};
   }
 
   [[nodiscard]] std::map<std::string, std::string> settings() const {
@@ -243,6 +247,9 @@ class Session::Journal {
           "pragma application_id = 0x6c6f6674;"
           "commit");
     }
+    execute(
+        "create table if not exists inputs (path text primary key, place integer not null,"
+        " checksum integer not null) strict");
     const Statement last =
         prepare("select number, checksum from edits order by number desc limit 1");
     if (step(last)) {
@@ -253,7 +260,7 @@ class Session::Journal {
   }
 
   void insert(const std::string& line) {
-    sum_ = checksum(sum_, line);
+    sum_ = chained(sum_, line);
     sqlite3_reset(insert_.get());
     sqlite3_bind_int64(insert_.get(), 1, static_cast<sqlite3_int64>(count_++));
     bind(insert_, 2, line);
@@ -265,6 +272,14 @@ class Session::Journal {
       throw;
     }
     sqlite3_reset(insert_.get());
+  }
+
+  void keep(const InputPosition& input) const {
+    const Statement row = prepare("insert or replace into inputs values (?, ?, ?)");
+    bind(row, 1, input.path);
+    sqlite3_bind_int64(row.get(), 2, static_cast<sqlite3_int64>(input.offset));
+    sqlite3_bind_int64(row.get(), 3, static_cast<sqlite3_int64>(input.checksum));
+    step(row);
   }
 
   std::filesystem::path path_;
@@ -282,7 +297,12 @@ Session::~Session() = default;
 Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
-void Session::append(std::span<const Edit> edits) { journal_->append(edits); }
+void Session::append(std::span<const Edit> edits, const std::optional<InputPosition>& input) {
+  journal_->append(edits, input);
+}
+std::optional<InputPosition> Session::input_position(const std::string& path) const {
+  return journal_->input_position(path);
+}
 void Session::for_each(const std::function<void(std::uint64_t, Edit&&)>& take) const {
   journal_->for_each(take);
 }

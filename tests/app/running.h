@@ -44,6 +44,14 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
+  /// Whether it says that; waits for it.
+  [[nodiscard]] bool says(const std::string& words) const {
+    for (int i = 0; i < 3000; ++i) {
+      if (content(folder_ / "err.txt").find(words) != std::string::npos) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    return false;
+  }
   /// The port that it says it listens on; waits for that. 0 if it ends before.
   [[nodiscard]] int port() const {
     const std::string mark = "listening on http://127.0.0.1:";
@@ -64,6 +72,7 @@ class Running {
     return client;
   }
 
+  [[nodiscard]] pid_t process() const { return process_; }
   void send(int signal) const { ::kill(process_, signal); }
   /// Waits for its end; its exit code, or minus the signal that ended it.
   int wait() {

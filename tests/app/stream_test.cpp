@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -26,6 +27,7 @@ using namespace testing;
 using nlohmann::json;
 using ::testing::AllOf;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 int count_from(const char* variable, int usual) {
   const char* const wanted = std::getenv(variable);
@@ -89,6 +91,26 @@ TEST(Stream, BadLinesAreNamedAndLeftOut) {
   EXPECT_EQ(run(folder, "stream --strict").exit_code, 3);
 }
 
+TEST(Stream, EachLineOfAComplaintSaysWhere) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << leaning(0)
+                                  << R"({"z": 1, "contours": [[[0, 0], [1e200, 0], [0, 1e200]]]})"
+                                  << '\n';
+  const std::string words = run(folder, "stream").err;
+  EXPECT_THAT(words, HasSubstr("standard input:2: slice 1 (z = 1) contour 0 point 1"));
+  EXPECT_THAT(words, HasSubstr("standard input:2: slice 1 (z = 1) contour 0 point 2"));
+}
+
+TEST(Stream, AnEndlessLineIsLeftOut) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << leaning(0) << std::string(std::size_t{257} << 20U, ' ') << '\n'
+                                  << leaning(1);
+  const Outcome outcome = run(folder, "stream -o out.ply");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("standard input:2: the line is longer than 256 MiB"));
+  expect_surface_of(folder, stack(2), "out.ply");
+}
+
 TEST(Stream, LabelsAreSurfacesOfTheirOwn) {
   const Folder folder;
   const auto line = [](int z, bool has_bone) {
@@ -127,6 +149,57 @@ TEST(Stream, FollowsAFileWhileItGrows) {
   EXPECT_EQ(wait_for(3), 3);
   EXPECT_EQ(running.interrupt(), 0);
   expect_surface_of(folder, stack(3), "out.ply");
+}
+
+/// Follows a file of edits; has written out.ply when it has taken in a stack of three.
+class Following : public ::testing::Test {
+ protected:
+  Folder folder_;
+  std::ofstream file_{folder_ / "in.ndjson"};
+  std::optional<Running> running_;
+
+  void start(const std::vector<std::string>& more = {}) {
+    file_ << stack(3) << std::flush;
+    std::vector<std::string> words{"stream",  "in.ndjson", "--follow", "-o",
+                                   "out.ply", "--every",   "3"};
+    words.insert(words.end(), more.begin(), more.end());
+    running_.emplace(folder_, words);
+    for (int i = 0; i < 3000 && !std::filesystem::exists(folder_ / "out.ply"); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    ASSERT_TRUE(std::filesystem::exists(folder_ / "out.ply"));
+    std::filesystem::remove(folder_ / "out.ply");
+  }
+};
+
+TEST_F(Following, ALostTerminalIsARequestToEnd) {
+  std::signal(SIGHUP, SIG_DFL);  // the tests themselves may be run by nohup
+  std::signal(SIGPIPE, SIG_DFL);
+  start();
+  running_->send(SIGPIPE);
+  running_->send(SIGHUP);
+  EXPECT_EQ(running_->wait(), 0);
+  expect_surface_of(folder_, stack(3), "out.ply");
+}
+
+TEST_F(Following, WhatCannotBeReadAnyMoreEndsTheInputOnly) {
+  start();
+  std::filesystem::remove(folder_ / "in.ndjson");
+  std::filesystem::create_directory(folder_ / "in.ndjson");
+  EXPECT_EQ(running_->wait(), 3);
+  EXPECT_THAT(content(folder_ / "err.txt"), HasSubstr("cannot read in.ndjson: it is a folder"));
+  expect_surface_of(folder_, stack(3), "out.ply");
+}
+
+TEST_F(Following, ALineWithoutItsEndIsNoEditYet) {
+  start({"--session", "c.session"});
+  file_ << leaning(3).substr(0, 10) << std::flush;
+  ASSERT_EQ(running_->interrupt(), 0);
+  EXPECT_THAT(content(folder_ / "err.txt"),
+              HasSubstr("in.ndjson: the last 10 bytes were left out"));
+  expect_surface_of(folder_, stack(3), "out.ply");
+  file_ << leaning(3).substr(10) << std::flush;
+  ASSERT_EQ(run(folder_, "stream in.ndjson --session c.session -o out.ply").exit_code, 0);
+  expect_surface_of(folder_, stack(4), "out.ply");
 }
 
 TEST(Stream, WritesItsOutputsOnRequestAndEverySoOften) {
@@ -445,6 +518,27 @@ TEST(Session, ResumesWithItsSettings) {
   EXPECT_THAT(other.err, HasSubstr("was begun with cap dome, not open"));
 }
 
+TEST(Session, AFileIsTakenInOnce) {
+  const Folder folder;
+  std::ofstream file(folder / "in.ndjson");
+  const std::string remove = "{\"op\": \"remove\", \"z\": 9}\n";
+  file << stack(3) << remove << std::flush;
+  const std::string words = "stream in.ndjson --session c.session";
+  EXPECT_THAT(run(folder, words).err, HasSubstr("3 edits, 1 rejected"));
+  // A slice comes in between that an edit of the file, rejected before, would remove.
+  std::ofstream(folder / "stdin") << leaning(9);
+  ASSERT_EQ(run(folder, "stream --session c.session").exit_code, 0);
+  EXPECT_THAT(run(folder, words).err,
+              AllOf(HasSubstr("resumed at line 5 of in.ndjson"), HasSubstr("4 edits, 0 rejected")));
+  file << leaning(4) << std::flush;
+  EXPECT_THAT(run(folder, words).err, HasSubstr("5 edits, 0 rejected; 5 slices"));
+  EXPECT_THAT(run(folder, "session list c.session").out, Not(HasSubstr("in.ndjson")));
+
+  std::ofstream(folder / "in.ndjson") << leaning(5);
+  EXPECT_THAT(run(folder, words).err,
+              AllOf(HasSubstr("is not the file any more"), HasSubstr("6 slices")));
+}
+
 TEST(Session, SlabsAreAsOldAsTheLastEditsOfTheirSlices) {
   const Folder folder;
   const std::vector<std::string> words{"stream", "--no-input", "--port", "0", "--session", "c"};
@@ -543,6 +637,50 @@ TEST(Session, WhatCannotBeKeptIsNotTaken) {
   running.kill();
   const auto exported = run(folder, "session export c.session").out;
   EXPECT_EQ(std::ranges::count(exported, '\n'), kept);
+}
+
+/// While the session may not grow, edits of a file wait.
+class Waiting : public ::testing::Test {
+ protected:
+  Folder folder_;
+  rlimit before_{};
+  std::optional<Running> running_;
+
+  void start(const std::vector<std::string>& more) {
+    std::ofstream(folder_ / "stdin") << stack(2);
+    ASSERT_EQ(run(folder_, "stream --session c.session").exit_code, 0);
+    std::ofstream(folder_ / "in.ndjson") << leaning(2, 5000) << leaning(3) << leaning(4);
+    ::getrlimit(RLIMIT_FSIZE, &before_);
+    const rlimit small{100'000, before_.rlim_max};
+    std::signal(SIGXFSZ, SIG_IGN);
+    ::setrlimit(RLIMIT_FSIZE, &small);
+    std::vector<std::string> words{"stream", "in.ndjson", "--session", "c.session"};
+    words.insert(words.end(), more.begin(), more.end());
+    running_.emplace(folder_, words);
+    ::setrlimit(RLIMIT_FSIZE, &before_);
+    ASSERT_TRUE(running_->says("in.ndjson:1: cannot write c.session"));
+  }
+};
+
+TEST_F(Waiting, EditsThatCannotBeKeptAreTakenInTheirOrderLater) {
+  start({"--port", "0"});
+  const auto client = running_->client();
+  EXPECT_EQ(client->Post("/slices", leaning(9, 5000), "text/plain")->status, 507);
+  EXPECT_EQ(json::parse(client->Get("/status")->body)["slices"], 2);
+  ASSERT_EQ(::prlimit(running_->process(), RLIMIT_FSIZE, &before_, nullptr), 0);
+  for (int i = 0; i < 1000 && json::parse(client->Get("/status")->body)["slices"] != 5; ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(running_->interrupt(), 0);
+  EXPECT_THAT(content(folder_ / "err.txt"), HasSubstr("5 edits, 1 rejected"));
+  const std::string list = run(folder_, "session list c.session").out;
+  EXPECT_THAT(list, HasSubstr("2 insert z = 2, 1 contours, 5000 points\n3 insert z = 3, "));
+  EXPECT_THAT(list, HasSubstr("5 edits, 5 slices now"));
+}
+
+TEST_F(Waiting, EditsThatWereNotKeptAreSaidAtTheEnd) {
+  start({});
+  EXPECT_EQ(running_->interrupt(), 4);
+  EXPECT_THAT(content(folder_ / "err.txt"), HasSubstr("3 edits were not kept"));
 }
 
 TEST(Clients, ManyPostWhileViewersWatchAndOneReadsNothing) {

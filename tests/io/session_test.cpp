@@ -111,6 +111,23 @@ TEST_F(SessionFile, FullDiskKeepsNothingOfWhatFailedAndGoesOnLater) {
   EXPECT_EQ(all(session), (std::vector<Edit>{edit(0), edit(1), edit(2, 20'000)}));
 }
 
+TEST_F(SessionFile, RemembersHowFarAFileWasTakenIn) {
+  const InputPosition a{"/a", 100, 1};
+  const InputPosition b{"/b", 7, ~std::uint64_t{0}};
+  {
+    Session session = write();
+    EXPECT_FALSE(session.input_position("/a"));
+    session.append(std::vector{edit(0)}, a);
+    session.append({}, b);
+    session.append(std::vector{edit(1)}, InputPosition{"/a", 200, 2});
+    session.append(std::vector{edit(2)});
+  }
+  const Session session = write();
+  EXPECT_EQ(session.input_position("/a"), (InputPosition{"/a", 200, 2}));
+  EXPECT_EQ(session.input_position("/b"), b);
+  EXPECT_EQ(session.edit_count(), 3U);
+}
+
 TEST_F(SessionFile, DamageIsFoundOrHarmless) {
   std::vector<Edit> edits;
   for (std::size_t i = 0; i < 40; ++i) edits.push_back(edit(i, 1 + i % 5));
