@@ -147,7 +147,8 @@ ExitCode verify(const SessionCommand& command) {
   } else {
     Terminal terminal(command.quiet);
     for (const std::string& fault : salvaged.faults) terminal.complain(fault);
-    terminal.say(grouped(salvaged.edits) + " edits are sound; 'loft session export' saves them");
+    if (salvaged.edits > 0)
+      terminal.say(grouped(salvaged.edits) + " edits are sound; 'loft session export' saves them");
   }
   return salvaged.faults.empty() ? ExitCode::ok : ExitCode::check_failed;
 }
