@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cmath>
 #include <exception>
 #include <iostream>
@@ -7,6 +8,7 @@
 #include <string>
 
 #include "app/commands.h"
+#include "app/descriptors.h"
 #include "app/out_of_core.h"
 #include "app/terminal.h"
 #include "app/unit.h"
@@ -422,9 +424,19 @@ ExitCode run_safely(int argc, char** argv) {
   }
 }
 
+/// Results that did not arrive are a failure, whatever else went well.
+ExitCode flush_results(ExitCode code) {
+  errno = 0;
+  std::cout.flush();
+  if (std::cout) return code;
+  const std::string cause = errno != 0 ? loft::io::last_cause() : "a write failed";
+  return fail(("cannot write to standard output: " + cause).c_str(), ExitCode::cannot_write);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_closed_descriptors();
   std::ios::sync_with_stdio(false);
-  return static_cast<int>(run_safely(argc, argv));
+  return static_cast<int>(flush_results(run_safely(argc, argv)));
 }

@@ -60,76 +60,97 @@ ExitCode list(const SessionCommand& command) {
   return ExitCode::ok;
 }
 
-/// Writes as far as the session can be read; what cannot is said afterwards.
-void write_export(const SessionCommand& command, std::ostream& out) {
-  const io::Session session(command.file, io::Session::Access::read);
+/// What came back of a session, and what did not.
+struct Salvaged {
+  std::uint64_t edits = 0;
+  std::vector<std::string> faults;
+};
+
+/// Writes all that is sound.
+Salvaged write_export(const io::Session& session, bool edits, std::ostream& out) {
   io::StackState state;
-  std::exception_ptr damage;
-  try {
-    session.for_each([&](std::uint64_t, Edit&& edit) {
-      if (command.edits) {
-        out << to_line(edit) << '\n';
-      } else {
-        static_cast<void>(state.apply(edit));
-      }
-    });
-  } catch (const io::FileError&) {
-    damage = std::current_exception();
-  }
-  if (!command.edits) io::write_slices_json(out, state.stack());
+  Salvaged salvaged;
+  salvaged.faults = session.salvage([&](std::uint64_t, Edit&& edit) {
+    ++salvaged.edits;
+    if (edits) {
+      out << to_line(edit) << '\n';
+    } else if (state.apply(edit) && edit.kind == Edit::Kind::replace) {
+      // What it replaced is lost; it is not.
+      edit.kind = Edit::Kind::insert;
+      static_cast<void>(state.apply(edit));
+    }
+  });
+  if (!edits) io::write_slices_json(out, state.stack());
   out.flush();
-  if (damage) std::rethrow_exception(damage);
+  return salvaged;
+}
+
+/// Exit code and words for a session that was exported.
+ExitCode report(const SessionCommand& command, const Salvaged& salvaged) {
+  Terminal terminal(command.quiet);
+  for (const std::string& fault : salvaged.faults)
+    terminal.complain(command.file.string() + ": " + fault);
+  if (salvaged.edits == 0 && !salvaged.faults.empty())
+    terminal.complain(command.file.string() +
+                      ": no edit can be read; nothing was written; restore it from a copy");
+  return salvaged.faults.empty() ? ExitCode::ok : ExitCode::bad_input;
 }
 
 ExitCode export_slices(const SessionCommand& command) {
-  if (command.output == "-") {
-    write_export(command, std::cout);
-    return ExitCode::ok;
-  }
+  const io::Session session(command.file, io::Session::Access::read);
+  if (command.output == "-")
+    return report(command, write_export(session, command.edits, std::cout));
   forbid_overwriting(std::array{command.file}, std::array{command.output});
   io::AtomicFile file(command.output);
-  try {
-    write_export(command, file.stream());
-  } catch (const io::FileError&) {
-    file.commit();  // what could be saved
-    throw;
-  }
-  file.commit();
-  Terminal(command.quiet).say("wrote " + command.output.string());
-  return ExitCode::ok;
+  const Salvaged salvaged = write_export(session, command.edits, file.stream());
+  const bool has_something = salvaged.edits > 0 || salvaged.faults.empty();
+  if (has_something) file.commit();
+  const ExitCode code = report(command, salvaged);
+  if (has_something) Terminal(command.quiet).say("wrote " + command.output.string());
+  return code;
 }
 
-/// Everything that can be checked; edits that do not apply are listed, all of them.
-ExitCode verify(const SessionCommand& command) {
-  Terminal terminal(command.quiet);
+/// Everything that can be checked: the file, the edits, whether they apply.
+Salvaged examine(const SessionCommand& command) {
+  Salvaged salvaged;
   std::vector<std::string> problems;
-  std::uint64_t count = 0;
   try {
     const io::Session session(command.file, io::Session::Access::read);
-    session.check();
+    problems = session.check();
     io::StackState state;
-    session.for_each([&](std::uint64_t number, Edit&& edit) {
+    std::vector<std::string> not_applied;
+    const auto damaged = session.salvage([&](std::uint64_t number, Edit&& edit) {
       if (const auto problem = state.apply(edit))
-        problems.push_back("edit " + std::to_string(number) + " (" + io::name(edit.kind) +
-                           " z = " + exact(edit.slice.z) + "): " + *problem);
-      ++count;
+        not_applied.push_back("edit " + std::to_string(number) + " (" + io::name(edit.kind) +
+                              " z = " + exact(edit.slice.z) + "): " + *problem);
+      ++salvaged.edits;
     });
-  } catch (const io::FileError& error) {
-    if (!std::filesystem::exists(command.file)) throw;
+    problems.insert(problems.end(), damaged.begin(), damaged.end());
+    problems.insert(problems.end(), not_applied.begin(), not_applied.end());
+  } catch (const io::DamagedSession& error) {
     problems.emplace_back(error.what());
   }
+  salvaged.faults = std::move(problems);
+  return salvaged;
+}
+
+ExitCode verify(const SessionCommand& command) {
+  const Salvaged salvaged = examine(command);
   if (command.json) {
     const Json report{{"schema", "loft-session-verify"},
                       {"schema_version", 1},
-                      {"edits", count},
-                      {"problems", problems}};
+                      {"edits", salvaged.edits},
+                      {"problems", salvaged.faults}};
     std::cout << print(report) << '\n';
+  } else if (salvaged.faults.empty()) {
+    std::cout << command.file.string() << ": " << grouped(salvaged.edits) << " edits, all fine\n";
   } else {
-    for (const std::string& problem : problems) terminal.complain(problem);
-    if (problems.empty())
-      std::cout << command.file.string() << ": " << grouped(count) << " edits, all fine\n";
+    Terminal terminal(command.quiet);
+    for (const std::string& fault : salvaged.faults) terminal.complain(fault);
+    if (salvaged.edits > 0)
+      terminal.say(grouped(salvaged.edits) + " edits are sound; 'loft session export' saves them");
   }
-  return problems.empty() ? ExitCode::ok : ExitCode::check_failed;
+  return salvaged.faults.empty() ? ExitCode::ok : ExitCode::check_failed;
 }
 
 }  // namespace

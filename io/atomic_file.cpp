@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/atomic_file.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cerrno>
-#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -13,59 +17,124 @@ namespace loft::io {
 
 namespace {
 
-std::filesystem::path folder_of(const std::filesystem::path& path) {
-  const std::filesystem::path parent = path.parent_path();
-  return parent.empty() ? std::filesystem::path(".") : parent;
+using std::filesystem::path;
+
+path folder_of(const path& file) {
+  const path parent = file.parent_path();
+  return parent.empty() ? path(".") : parent;
 }
 
-/// Creates an empty file that did not exist before, so that two writers never share one.
-bool create_new(const std::filesystem::path& path) {
-  std::FILE* const file = std::fopen(path.string().c_str(), "wbx");
-  if (file == nullptr) return false;
-  std::fclose(file);
-  return true;
+/// The name of something that a process has open, like what /dev/stdout leads to.
+bool is_open_file(const path& file) {
+  std::error_code ignored;
+  return std::filesystem::canonical(folder_of(file), ignored).string().starts_with("/proc/");
 }
 
-std::filesystem::path create_temporary(const std::filesystem::path& path) {
-  constexpr int attempts = 1000;
-  for (int number = 0; number < attempts; ++number) {
-    std::string name(1, '.');
-    name += path.filename().string() + '.' + std::to_string(number) + ".part";
-    const std::filesystem::path candidate = folder_of(path) / name;
-    if (create_new(candidate)) return candidate;
-    if (errno != EEXIST) break;
+/// Where links lead, whether there is a file or not.
+path follow_links(path file) {
+  constexpr int most_links = 40;  // as Linux
+  std::error_code ignored;
+  for (int i = 0; i < most_links && std::filesystem::is_symlink(file, ignored); ++i) {
+    if (is_open_file(file)) break;
+    file = folder_of(file) / std::filesystem::read_symlink(file, ignored);
   }
-  throw FileError(Access::write, path, last_cause());
+  return file;
+}
+
+/// Whether a file may take the place of what is there.
+bool is_replaceable(const path& file) {
+  std::error_code ignored;
+  const auto kind = std::filesystem::status(file, ignored).type();
+  return kind == std::filesystem::file_type::not_found ||
+         (kind == std::filesystem::file_type::regular && !is_open_file(file));
+}
+
+/// Whether a process of this user left it, and nobody has renamed or removed it meanwhile.
+bool is_left_over(int file, const path& name) {
+  struct stat opened {};
+  struct stat there {};
+  return ::fstat(file, &opened) == 0 && ::lstat(name.c_str(), &there) == 0 &&
+         opened.st_dev == there.st_dev && opened.st_ino == there.st_ino &&
+         S_ISREG(opened.st_mode) && opened.st_nlink == 1 && opened.st_uid == ::geteuid();
+}
+
+/// Makes the file and locks it, so that nobody takes it over. -1 if that cannot be, see errno.
+int make(const path& name) {
+  const int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  if (file < 0) return -1;
+  // Where files cannot be locked nobody can take them over.
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
+  ::close(file);
+  errno = EEXIST;
+  return -1;
+}
+
+/// Takes over a file that no process holds any more. -1 if it is no such file.
+int take_over(const path& name) {
+  const int file = ::open(name.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (file < 0) return -1;
+  if (::flock(file, LOCK_EX | LOCK_NB) == 0 && is_left_over(file, name)) return file;
+  ::close(file);
+  return -1;
 }
 
 }  // namespace
 
-AtomicFile::AtomicFile(std::filesystem::path path) : path_(std::move(path)) {
+AtomicFile::AtomicFile(path name) : path_(std::move(name)), target_(follow_links(path_)) {
   std::error_code ignored;
-  if (!std::filesystem::is_directory(folder_of(path_), ignored)) {
+  if (!std::filesystem::is_directory(folder_of(target_), ignored)) {
     throw FileError(Access::write, path_,
-                    "folder " + folder_of(path_).string() + " does not exist; create it first");
+                    "folder " + folder_of(target_).string() + " does not exist; create it first");
   }
-  if (std::filesystem::is_directory(path_, ignored)) {
+  if (std::filesystem::is_directory(target_, ignored)) {
     throw FileError(Access::write, path_, "it is a folder");
   }
-  temporary_ = create_temporary(path_);
+  if (is_replaceable(target_)) {
+    create_temporary();
+  } else if (::access(target_.c_str(), W_OK) != 0) {
+    throw FileError(Access::write, path_, last_cause());
+  }
+}
+
+void AtomicFile::create_temporary() {
+  constexpr int attempts = 1000;
+  for (int number = 0; number < attempts && lock_ < 0; ++number) {
+    std::string name(1, '.');
+    name += target_.filename().string() + '.' + std::to_string(number) + ".part";
+    temporary_ = folder_of(target_) / name;
+    lock_ = make(temporary_);
+    if (lock_ < 0 && errno != EEXIST) break;
+    if (lock_ < 0) lock_ = take_over(temporary_);
+  }
+  if (lock_ < 0) throw FileError(Access::write, path_, last_cause());
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
 }
 
 AtomicFile::~AtomicFile() {
-  if (committed_) return;
+  if (lock_ < 0) return;
   stream_.close();
   std::error_code ignored;
-  std::filesystem::remove(temporary_, ignored);
+  if (!committed_) std::filesystem::remove(temporary_, ignored);
+  ::close(lock_);
+}
+
+std::ostream& AtomicFile::stream() {
+  const bool is_direct = lock_ < 0;
+  if (is_direct && !stream_.is_open()) {
+    // At the end: /dev/stdout may be a file that has something in it already.
+    stream_.open(target_, std::ios::binary | std::ios::app);
+    if (!stream_) throw FileError(Access::write, path_, last_cause());
+  }
+  return stream_;
 }
 
 void AtomicFile::commit() {
   errno = 0;
+  stream().flush();
   stream_.close();
   if (!stream_) throw FileError(Access::write, path_, errno != 0 ? last_cause() : "write failed");
   std::error_code error;
-  std::filesystem::rename(temporary_, path_, error);
+  if (lock_ >= 0) std::filesystem::rename(temporary_, target_, error);
   if (error) throw FileError(Access::write, path_, error.message());
   committed_ = true;
 }

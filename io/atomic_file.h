@@ -8,17 +8,21 @@
 namespace loft::io {
 
 /// A file that appears whole or not at all: written under another name in the same folder,
-/// renamed by commit(). Without commit() nothing is left behind.
+/// renamed by commit(). Without commit() nothing is left behind. A link stays, what it leads to is
+/// replaced. What is there and is no regular file (a pipe, a device, /dev/stdout) is written to as
+/// it is, and nothing is taken back.
 class AtomicFile {
  public:
-  /// Creates the temporary file `.NAME.N.part`, N the first number that is free.
+  /// Creates the temporary file `.NAME.N.part`, N the first number that no process uses; one that
+  /// a killed process has left is taken over.
   /// Throws FileError where the folder is missing or not writable, or `path` is a folder.
   explicit AtomicFile(std::filesystem::path path);
   ~AtomicFile();
   AtomicFile(const AtomicFile&) = delete;
   AtomicFile& operator=(const AtomicFile&) = delete;
 
-  [[nodiscard]] std::ostream& stream() { return stream_; }
+  /// A pipe is opened by the first call, which waits for its reader. Throws FileError.
+  [[nodiscard]] std::ostream& stream();
   /// What it is called until it is committed.
   [[nodiscard]] const std::filesystem::path& temporary() const { return temporary_; }
 
@@ -26,8 +30,12 @@ class AtomicFile {
   void commit();
 
  private:
+  void create_temporary();
+
   std::filesystem::path path_;
+  std::filesystem::path target_;  // where links lead
   std::filesystem::path temporary_;
+  int lock_ = -1;  // on the temporary file, as long as it has that name; -1: there is none
   std::ofstream stream_;
   bool committed_ = false;
 };

@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "io/session.h"
 
-#include <fcntl.h>
 #include <sqlite3.h>
-#include <sys/file.h>
-#include <unistd.h>
 
+#include <optional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
-#include "io/checksum.h"
-#include "io/file.h"
+#include "io/session_database.h"
+#include "io/session_salvage.h"
 
 namespace loft::io {
 
@@ -20,225 +19,144 @@ namespace {
 constexpr int application_id = 0x6c6f6674;
 constexpr int schema_version = 1;
 
-/// Chained from row to row, so that it tells lost and swapped rows from the right ones, too.
-std::uint64_t chained(std::uint64_t before, std::string_view line) {
-  return checksum(line, no_checksum ^ before);
+/// No edit takes less room in the file: its line, its checksum, what SQLite puts around them.
+constexpr std::uint64_t least_edit_bytes = 32;
+
+using Statement = SessionDatabase::Statement;
+
+std::uint64_t unsigned_number(const Statement& row, int column) {
+  return static_cast<std::uint64_t>(sqlite3_column_int64(row.get(), column));
 }
-
-/// What SQLite says, and the way out.
-std::string cause(int code, const std::string& words) {
-  switch (code & 0xff) {
-    case SQLITE_BUSY:
-    case SQLITE_LOCKED:
-      return "another process is writing to this session; end it first, or use another file";
-    case SQLITE_FULL:
-      return "the disk is full; make room, then send the slices again that were not acknowledged";
-    case SQLITE_READONLY:
-    case SQLITE_PERM:
-      return "it may not be written to; change its permissions, or use another file";
-    case SQLITE_CANTOPEN:
-      return "it cannot be opened: " + words;
-    case SQLITE_NOTADB:
-      return "it is no session file";
-    case SQLITE_CORRUPT:
-      return "it is damaged (" + words +
-             "); 'loft session verify' says where, 'loft session "
-             "export' saves what can be read";
-    default:
-      return words;
-  }
-}
-
-struct Finalizer {
-  void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
-};
-/// A file that this process has locked.
-struct Lock {
-  Lock() = default;
-  ~Lock() {
-    if (file >= 0) ::close(file);
-  }
-  Lock(const Lock&) = delete;
-  Lock& operator=(const Lock&) = delete;
-
-  int file = -1;
-};
-struct Closer {
-  void operator()(sqlite3* database) const { sqlite3_close(database); }
-};
 
 }  // namespace
 
 class Session::Journal {
  public:
-  Journal(std::filesystem::path path, Access access) : path_(std::move(path)), access_(access) {
-    if (access == Access::write) lock();
-    const int flags =
-        access == Access::write ? SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE : SQLITE_OPEN_READONLY;
-    sqlite3* database = nullptr;
-    const int code = sqlite3_open_v2(path_.c_str(), &database, flags, nullptr);
-    database_.reset(database);
-    if (access == Access::read && !std::filesystem::exists(path_))
-      fail(SQLITE_ERROR, "No such file or directory");
-    if (code != SQLITE_OK) fail(code);
-    sqlite3_busy_timeout(database, 2000);
-    identify();
+  Journal(const std::filesystem::path& path, Access access)
+      : database_(path, access == Access::read ? loft::io::Access::read : loft::io::Access::write) {
+    identify(access);
     if (access == Access::write) prepare_to_write();
   }
 
   void append(std::span<const Edit> edits, const std::optional<InputPosition>& input) {
     if (edits.empty() && !input) return;
-    execute("begin immediate");
     const std::uint64_t count = count_;
     const std::uint64_t sum = sum_;
     try {
-      for (const Edit& edit : edits) insert(to_line(edit));
-      if (input) keep(*input);
-      execute("commit");
+      database_.in_one_transaction([&] {
+        for (const Edit& edit : edits) insert(to_line(edit));
+        if (input) keep(*input);
+        database_.check_in_place();
+      });
     } catch (...) {
-      // Some errors have rolled back already: then this one does nothing.
-      sqlite3_exec(database_.get(), "rollback", nullptr, nullptr, nullptr);
       count_ = count;
       sum_ = sum;
       throw;
     }
   }
 
-  void for_each(const std::function<void(std::uint64_t, Edit&&)>& take) const {
-    const Statement rows = prepare("select number, line, checksum from edits order by number");
+  void for_each(const Take& take) const {
+    const Statement rows =
+        database_.prepare("select number, line, checksum from edits order by number");
     std::uint64_t expected = 0;
     std::uint64_t sum = 0;
-    while (step(rows)) {
-      const auto number = static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 0));
-      const std::string_view line = text(rows, 1);
-      sum = chained(sum, line);
-      if (number != expected ||
-          sum != static_cast<std::uint64_t>(sqlite3_column_int64(rows.get(), 2)))
-        damaged(expected);
+    for (; database_.step(rows); ++expected) {
+      const std::string_view line = SessionDatabase::text(rows, 1);
+      sum = edit_checksum(sum, line);
+      const bool is_right = unsigned_number(rows, 0) == expected && sum == unsigned_number(rows, 2);
       EditLine read = parse_edit_line(line);
-      if (!read.problems.empty()) damaged(expected);
-      take(number, std::move(read.edit));
-      ++expected;
+      if (!is_right || !read.problems.empty()) fail_damaged(expected);
+      take(expected, std::move(read.edit));
     }
   }
 
+  [[nodiscard]] std::vector<std::string> salvage(const Take& take) const {
+    // As long as there is that row, all is read as it was then.
+    const Statement last =
+        database_.prepare("select number from edits order by number desc limit 1");
+    const Statement row = database_.prepare("select line, checksum from edits where number = ?");
+    const std::optional<std::uint64_t> count = count_up_to(last);
+    const std::uint64_t end = count.value_or(most_edits());
+    SessionSalvage salvage(take);
+    for (std::uint64_t number = 0; number < end; ++number) {
+      sqlite3_reset(row.get());
+      sqlite3_bind_int64(row.get(), 1, static_cast<sqlite3_int64>(number));
+      if (database_.try_step(row) == true) {
+        salvage.add(SessionDatabase::text(row, 0), unsigned_number(row, 1));
+      } else {
+        salvage.add_hole();
+      }
+    }
+    return salvage.finish(count.has_value());
+  }
+
   [[nodiscard]] std::uint64_t count() const {
-    const Statement row = prepare("select count(*) from edits");
-    return step(row) ? static_cast<std::uint64_t>(sqlite3_column_int64(row.get(), 0)) : 0;
+    const Statement row = database_.prepare("select count(*) from edits");
+    return database_.step(row) ? unsigned_number(row, 0) : 0;
   }
 
   [[nodiscard]] std::optional<InputPosition> input_position(const std::string& path) const {
-    const Statement row = prepare("select place, checksum from inputs where path = ?");
-    bind(row, 1, path);
-    if (!step(row)) return {};
-    return InputPosition{path, static_cast<std::uint64_t>(sqlite3_column_int64(row.get(), 0)),
-                         static_cast<std::uint64_t>(sqlite3_column_int64(row.get(), 1))};
+    const Statement row = database_.prepare("select place, checksum from inputs where path = ?");
+    database_.bind(row, 1, path);
+    if (!database_.step(row)) return {};
+    return InputPosition{path, unsigned_number(row, 0), unsigned_number(row, 1)};
   }
 
   [[nodiscard]] std::map<std::string, std::string> settings() const {
     std::map<std::string, std::string> settings;
-    const Statement rows = prepare("select name, value from settings");
-    while (step(rows)) settings.emplace(text(rows, 0), text(rows, 1));
+    const Statement rows = database_.prepare("select name, value from settings");
+    while (database_.step(rows))
+      settings.emplace(SessionDatabase::text(rows, 0), SessionDatabase::text(rows, 1));
     return settings;
   }
 
   void set_settings(const std::map<std::string, std::string>& settings) {
-    execute("begin immediate");
-    try {
+    database_.in_one_transaction([&] {
       for (const auto& [name, value] : settings) {
-        const Statement row = prepare("insert or replace into settings values (?, ?)");
-        bind(row, 1, name);
-        bind(row, 2, value);
-        step(row);
+        const Statement row = database_.prepare("insert or replace into settings values (?, ?)");
+        database_.bind(row, 1, name);
+        database_.bind(row, 2, value);
+        database_.step(row);
       }
-      execute("commit");
-    } catch (...) {
-      sqlite3_exec(database_.get(), "rollback", nullptr, nullptr, nullptr);
-      throw;
-    }
+    });
   }
 
-  void check() const {
-    const Statement rows = prepare("pragma integrity_check");
-    while (step(rows))
-      if (const std::string words(text(rows, 0)); words != "ok") fail(SQLITE_CORRUPT, words);
+  [[nodiscard]] std::vector<std::string> check() const {
+    std::vector<std::string> all;
+    const Statement rows = database_.prepare("pragma integrity_check");
+    std::optional<bool> is_row = database_.try_step(rows);
+    for (; is_row == true; is_row = database_.try_step(rows)) {
+      std::istringstream words{std::string(SessionDatabase::text(rows, 0))};
+      for (std::string line; std::getline(words, line);)
+        if (line != "ok" && !line.starts_with("***")) all.push_back(line);
+    }
+    if (!is_row) all.emplace_back("the check ended there: the file is damaged");
+    return all;
   }
 
  private:
-  using Statement = std::unique_ptr<sqlite3_stmt, Finalizer>;
-
-  [[noreturn]] void fail(int code) const { fail(code, sqlite3_errmsg(database_.get())); }
-  [[noreturn]] void fail(int code, const std::string& words) const {
-    throw FileError(access_ == Access::write ? loft::io::Access::write : loft::io::Access::read,
-                    path_, cause(code, words));
-  }
-  [[noreturn]] void damaged(std::uint64_t number) const {
-    throw FileError(loft::io::Access::read, path_,
-                    "edit " + std::to_string(number) +
-                        " is damaged or missing; those before it are fine: 'loft session export' "
-                        "saves them");
-  }
-
-  void execute(const char* words) const {
-    const int code = sqlite3_exec(database_.get(), words, nullptr, nullptr, nullptr);
-    if (code != SQLITE_OK) fail(code);
-  }
-
-  [[nodiscard]] Statement prepare(const char* words) const {
-    sqlite3_stmt* statement = nullptr;
-    const int code = sqlite3_prepare_v2(database_.get(), words, -1, &statement, nullptr);
-    if (code != SQLITE_OK) fail(code);
-    return Statement(statement);
-  }
-
-  /// Whether there is a row.
-  bool step(const Statement& statement) const {
-    const int code = sqlite3_step(statement.get());
-    if (code == SQLITE_ROW) return true;
-    if (code != SQLITE_DONE) fail(code);
-    return false;
-  }
-
-  [[nodiscard]] static std::string_view text(const Statement& row, int column) {
-    const auto* bytes = static_cast<const char*>(sqlite3_column_blob(row.get(), column));
-    const int size = sqlite3_column_bytes(row.get(), column);
-    return bytes == nullptr ? std::string_view()
-                            : std::string_view(bytes, static_cast<std::size_t>(size));
-  }
-
-  void bind(const Statement& statement, int place, std::string_view words) const {
-    const int code = sqlite3_bind_text64(statement.get(), place, words.data(), words.size(),
-                                         SQLITE_TRANSIENT, SQLITE_UTF8);
-    if (code != SQLITE_OK) fail(code);
-  }
-
-  [[nodiscard]] int number(const char* words) const {
-    const Statement row = prepare(words);
-    return step(row) ? sqlite3_column_int(row.get(), 0) : 0;
-  }
-
-  /// One writer at a time, for as long as it lives. SQLite's own locks are for single transactions.
-  void lock() {
-    lock_.file = ::open(path_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
-    if (lock_.file < 0) fail(SQLITE_ERROR, last_cause());
-    if (::flock(lock_.file, LOCK_EX | LOCK_NB) != 0) fail(SQLITE_BUSY, last_cause());
+  [[noreturn]] void fail_damaged(std::uint64_t number) const {
+    database_.fail_damaged("edit " + std::to_string(number) +
+                           " is damaged or missing; 'loft session verify' lists all that are, "
+                           "'loft session export' saves the others");
   }
 
   /// Is it one of ours? An empty database becomes one.
-  void identify() const {
-    const int id = number("pragma application_id");
-    const bool is_empty = number("select count(*) from sqlite_schema") == 0;
-    if (id != application_id && !(is_empty && access_ == Access::write)) fail(SQLITE_NOTADB);
-    if (id == application_id && number("pragma user_version") > schema_version)
-      fail(SQLITE_ERROR, "a newer version of loft made it; use that one");
+  void identify(Access access) const {
+    const bool is_ours = database_.number("pragma application_id") == application_id;
+    const bool is_new = !is_ours && access == Access::write &&
+                        database_.number("select count(*) from sqlite_schema") == 0;
+    if (!is_ours && !is_new) database_.fail(SQLITE_NOTADB, "");
+    if (is_ours && database_.number("pragma user_version") > schema_version)
+      database_.fail(SQLITE_ERROR, "a newer version of loft made it; use that one");
   }
 
   void prepare_to_write() {
-    execute("pragma journal_mode = wal");
-    execute("pragma synchronous = full");
-    execute("pragma wal_autocheckpoint = 1000");
-    if (number("pragma application_id") != application_id) {
-      execute(
+    database_.execute("pragma journal_mode = wal");
+    database_.execute("pragma synchronous = full");
+    database_.execute("pragma wal_autocheckpoint = 1000");
+    if (database_.number("pragma application_id") != application_id) {
+      database_.execute(
           "begin immediate;"
           "create table edits (number integer primary key, line text not null,"
           " checksum integer not null) strict;"
@@ -247,26 +165,27 @@ class Session::Journal {
           "pragma application_id = 0x6c6f6674;"
           "commit");
     }
-    execute(
+    database_.execute(
         "create table if not exists inputs (path text primary key, place integer not null,"
         " checksum integer not null) strict");
     const Statement last =
-        prepare("select number, checksum from edits order by number desc limit 1");
-    if (step(last)) {
-      count_ = static_cast<std::uint64_t>(sqlite3_column_int64(last.get(), 0)) + 1;
-      sum_ = static_cast<std::uint64_t>(sqlite3_column_int64(last.get(), 1));
+        database_.prepare("select number, checksum from edits order by number desc limit 1");
+    if (database_.step(last)) {
+      count_ = unsigned_number(last, 0) + 1;
+      sum_ = unsigned_number(last, 1);
     }
-    insert_ = prepare("insert into edits values (?, ?, ?)");
+    insert_ = database_.prepare("insert into edits values (?, ?, ?)");
+    database_.remember_log();
   }
 
   void insert(const std::string& line) {
-    sum_ = chained(sum_, line);
+    sum_ = edit_checksum(sum_, line);
     sqlite3_reset(insert_.get());
     sqlite3_bind_int64(insert_.get(), 1, static_cast<sqlite3_int64>(count_++));
-    bind(insert_, 2, line);
+    database_.bind(insert_, 2, line);
     sqlite3_bind_int64(insert_.get(), 3, static_cast<sqlite3_int64>(sum_));
     try {
-      step(insert_);
+      database_.step(insert_);
     } catch (...) {
       sqlite3_reset(insert_.get());
       throw;
@@ -275,17 +194,29 @@ class Session::Journal {
   }
 
   void keep(const InputPosition& input) const {
-    const Statement row = prepare("insert or replace into inputs values (?, ?, ?)");
-    bind(row, 1, input.path);
+    const Statement row = database_.prepare("insert or replace into inputs values (?, ?, ?)");
+    database_.bind(row, 1, input.path);
     sqlite3_bind_int64(row.get(), 2, static_cast<sqlite3_int64>(input.offset));
     sqlite3_bind_int64(row.get(), 3, static_cast<sqlite3_int64>(input.checksum));
-    step(row);
+    database_.step(row);
   }
 
-  std::filesystem::path path_;
-  Access access_;
-  Lock lock_;  // let go last: closing a file lets go of SQLite's locks on it
-  std::unique_ptr<sqlite3, Closer> database_;
+  /// How many edits there are, by the number of the last; nothing if that is damaged.
+  [[nodiscard]] std::optional<std::uint64_t> count_up_to(const Statement& last) const {
+    const std::optional<bool> is_there = database_.try_step(last);
+    if (!is_there) return {};
+    const std::uint64_t count = *is_there ? unsigned_number(last, 0) + 1 : 0;
+    return count <= most_edits() ? std::optional(count) : std::nullopt;
+  }
+
+  /// As many as there is room for in the file.
+  [[nodiscard]] std::uint64_t most_edits() const {
+    const auto pages = static_cast<std::uint64_t>(database_.number("pragma page_count"));
+    const auto size = static_cast<std::uint64_t>(database_.number("pragma page_size"));
+    return pages * size / least_edit_bytes + 1;
+  }
+
+  SessionDatabase database_;
   Statement insert_;
   std::uint64_t count_ = 0;  // number of the next edit
   std::uint64_t sum_ = 0;    // checksum of the last one
@@ -303,14 +234,15 @@ void Session::append(std::span<const Edit> edits, const std::optional<InputPosit
 std::optional<InputPosition> Session::input_position(const std::string& path) const {
   return journal_->input_position(path);
 }
-void Session::for_each(const std::function<void(std::uint64_t, Edit&&)>& take) const {
-  journal_->for_each(take);
+void Session::for_each(const Take& take) const { journal_->for_each(take); }
+std::vector<std::string> Session::salvage(const Take& take) const {
+  return journal_->salvage(take);
 }
 std::uint64_t Session::edit_count() const { return journal_->count(); }
 std::map<std::string, std::string> Session::settings() const { return journal_->settings(); }
 void Session::set_settings(const std::map<std::string, std::string>& settings) {
   journal_->set_settings(settings);
 }
-void Session::check() const { journal_->check(); }
+std::vector<std::string> Session::check() const { return journal_->check(); }
 
 }  // namespace loft::io

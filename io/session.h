@@ -9,8 +9,10 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "io/edit.h"
+#include "io/file.h"
 
 namespace loft::io {
 
@@ -23,28 +25,38 @@ struct InputPosition {
   friend bool operator==(const InputPosition&, const InputPosition&) = default;
 };
 
+/// A session does not hold what was written into it.
+class DamagedSession : public FileError {
+ public:
+  using FileError::FileError;
+};
+
 /// The journal of a capture: every edit that was acknowledged, in order, in an SQLite file
 /// (write-ahead log, synchronous full). What append() has returned for survives the end of the
-/// process and the loss of power. One process at a time may write; any number may read.
+/// process and the loss of power. One process at a time may write; any number may read, also where
+/// they may not write.
 class Session {
  public:
   enum class Access { read, write };
+  using Take = std::function<void(std::uint64_t number, Edit&& edit)>;
 
   /// Opens the journal; with Access::write makes it where there is none. Throws FileError that says
   /// what is wrong and the way out: not writable, in use by another process, not a session file,
-  /// made by a newer loft, damaged.
+  /// made by a newer loft; DamagedSession.
   Session(const std::filesystem::path& path, Access access);
   ~Session();
   Session(Session&&) noexcept;
   Session& operator=(Session&&) noexcept;
 
   /// Adds edits, all or none; on return they are durable. Throws FileError (disk full, device
-  /// error); then none of them is kept.
+  /// error, the file was deleted or replaced meanwhile); then none of them is kept.
   /// `input`, where they came from, is kept with them, instead of what was kept for that file.
   void append(std::span<const Edit> edits, const std::optional<InputPosition>& input = {});
-  /// Calls take() for each edit, in order; with little in memory. Throws FileError where the
+  /// Calls take() for each edit, in order; with little in memory. Throws DamagedSession where the
   /// journal is damaged, naming the edit: each one has a checksum.
-  void for_each(const std::function<void(std::uint64_t number, Edit&& edit)>& take) const;
+  void for_each(const Take& take) const;
+  /// As for_each(), but leaves out what is damaged. Returns that, a line each; none if all is well.
+  [[nodiscard]] std::vector<std::string> salvage(const Take& take) const;
   [[nodiscard]] std::uint64_t edit_count() const;
   /// How far a file has been taken in; none if nothing came from it. Needs Access::write.
   [[nodiscard]] std::optional<InputPosition> input_position(const std::string& path) const;
@@ -54,8 +66,8 @@ class Session {
   [[nodiscard]] std::map<std::string, std::string> settings() const;
   void set_settings(const std::map<std::string, std::string>& settings);
 
-  /// Checks the file itself, all of it; the edits are checked by for_each(). Throws FileError.
-  void check() const;
+  /// What is wrong with the file itself, a line each; salvage() tells what is with the edits.
+  [[nodiscard]] std::vector<std::string> check() const;
 
  private:
   class Journal;

@@ -7,11 +7,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
+#include <numeric>
 #include <random>
 #include <string>
 #include <vector>
@@ -21,7 +23,11 @@
 namespace loft::io {
 namespace {
 
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::IsEmpty;
 using testing::ThrowsMessage;
 
 Edit edit(std::size_t number, std::size_t points = 3) {
@@ -74,7 +80,80 @@ TEST_F(SessionFile, KeepsEditsAndSettings) {
   EXPECT_EQ(again.settings()["fill"], "evenodd");
   again.append(std::vector{edit(7)});
   EXPECT_EQ(all(read()).back(), edit(7));
-  again.check();
+  EXPECT_THAT(again.check(), IsEmpty());
+}
+
+TEST_F(SessionFile, IsAFileWhateverItsName) {
+  EXPECT_THAT([] { Session("", Session::Access::write); },
+              ThrowsMessage<FileError>(HasSubstr("has no name")));
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder_);
+  for (const char* name : {":memory:", "file:a?mode=memory"}) {
+    Session(name, Session::Access::write).append(std::vector{edit(3)});
+    EXPECT_EQ(all(Session(name, Session::Access::read)), std::vector{edit(3)}) << name;
+  }
+  std::filesystem::current_path(before);
+}
+
+TEST_F(SessionFile, TakesNothingWhenItWasDeletedOrReplaced) {
+  Session session = write();
+  session.append(std::vector{edit(0)});
+  const auto elsewhere = folder_ / "elsewhere";
+  for (const auto& path : {path_, folder_ / "capture.session-wal"}) {
+    std::filesystem::rename(path, elsewhere);
+    EXPECT_THAT([&] { session.append(std::vector{edit(1)}); },
+                ThrowsMessage<FileError>(HasSubstr("deleted or replaced")));
+    std::filesystem::copy_file(elsewhere, path);
+    EXPECT_THROW(session.append(std::vector{edit(1)}), FileError);
+    std::filesystem::rename(elsewhere, path);
+  }
+  session.append(std::vector{edit(2)});
+  EXPECT_EQ(all(read()), (std::vector{edit(0), edit(2)}));
+}
+
+/// Runs `action` in a process whose user permissions bind; its words, empty if it throws nothing.
+template <class Action>
+std::string failure_as_nobody(Action action) {
+  int ends[2];
+  if (::pipe(ends) != 0) return "no pipe";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::geteuid() == 0 && ::setuid(65534) != 0) std::_Exit(1);
+    try {
+      action();
+    } catch (const FileError& error) {
+      const std::string_view words = error.what();
+      if (::write(ends[1], words.data(), words.size()) < 0) std::_Exit(1);
+    }
+    std::_Exit(0);
+  }
+  ::close(ends[1]);
+  char words[1000];
+  const ssize_t size = ::read(ends[0], words, sizeof words);
+  ::close(ends[0]);
+  ::waitpid(child, nullptr, 0);
+  return {words, static_cast<std::size_t>(std::max<ssize_t>(size, 0))};
+}
+
+TEST_F(SessionFile, CanBeReadByWhoMayNotWrite) {
+  using std::filesystem::perms;
+  const auto inner = folder_ / "50% of #1?";
+  path_ = inner / "capture.session";
+  std::filesystem::create_directories(inner);
+  const std::vector<Edit> edits{edit(0), edit(1)};
+  write().append(edits);
+  std::filesystem::permissions(
+      inner, perms::all & ~(perms::owner_write | perms::group_write | perms::others_write));
+  const auto read_all = [&] {
+    if (all(read()) != edits) throw FileError(loft::io::Access::read, path_, "other edits");
+  };
+  EXPECT_EQ(failure_as_nobody(read_all), "");
+  std::filesystem::permissions(path_, perms::all);
+  EXPECT_THAT(failure_as_nobody([&] { static_cast<void>(write()); }),
+              HasSubstr("or its folder may not be written to"));
+  std::filesystem::permissions(path_, perms::none);
+  EXPECT_THAT(failure_as_nobody(read_all), HasSubstr("Permission denied"));
+  std::filesystem::permissions(inner, perms::all);
 }
 
 TEST_F(SessionFile, HasOneWriter) {
@@ -149,6 +228,108 @@ TEST_F(SessionFile, DamageIsFoundOrHarmless) {
     }
   }
   EXPECT_GT(found, 0U);
+}
+
+/// Writes a file with one byte at a place changed.
+void damage(const std::filesystem::path& path, std::string bytes, std::size_t place) {
+  bytes[place] ^= 1;
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+struct Salvaged {
+  std::vector<std::size_t> edits;  // their numbers; all are as they were
+  std::vector<std::string> faults;
+};
+
+Salvaged salvage(const Session& session) {
+  Salvaged salvaged;
+  salvaged.faults = session.salvage([&](std::uint64_t number, Edit&& one) {
+    EXPECT_EQ(one, edit(number));
+    salvaged.edits.push_back(number);
+  });
+  return salvaged;
+}
+
+std::vector<std::size_t> numbers(std::size_t count) {
+  std::vector<std::size_t> all(count);
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+TEST_F(SessionFile, OneDamagedEditLosesNoOther) {
+  constexpr std::size_t count = 40;
+  std::vector<Edit> edits;
+  for (std::size_t i = 0; i < count; ++i) edits.push_back(edit(i));
+  write().append(edits);
+  EXPECT_EQ(salvage(read()).edits, numbers(count));
+  const std::string good = read_file(path_);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::string line = to_line(edits[i]);
+    const std::size_t place = good.find(line);
+    damage(path_, good, place + line.size() / 2);
+    auto others = numbers(count);
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const Salvaged salvaged = salvage(read());
+    EXPECT_EQ(salvaged.edits, others);
+    const std::string name = "edit " + std::to_string(i);
+    EXPECT_THAT(salvaged.faults, ElementsAre(name + ": damaged"));
+    EXPECT_THAT([&] { static_cast<void>(all(write())); },
+                ThrowsMessage<DamagedSession>(AllOf(HasSubstr(name + " is damaged"),
+                                                    HasSubstr("verify"), HasSubstr("export"))));
+    if (i + 1 == count) continue;  // there is none behind that tells it from a damaged edit
+    damage(path_, good, place + line.size());
+    EXPECT_EQ(salvage(read()).edits, numbers(count));
+    EXPECT_THAT(salvage(read()).faults, ElementsAre(HasSubstr(name + ": only the checksum")));
+  }
+}
+
+TEST_F(SessionFile, WhatIsLeftOfOneThatWasCutOffCanBeRead) {
+  std::vector<Edit> edits;
+  for (std::size_t i = 0; i < 500; ++i) edits.push_back(edit(i));
+  write().append(edits);
+  std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 8192 * 4096);
+  EXPECT_THAT(read().check(), Contains(HasSubstr("invalid page number")));
+  const Salvaged salvaged = salvage(read());
+  EXPECT_GT(salvaged.edits.size(), 150U);
+  EXPECT_EQ(salvaged.edits, numbers(salvaged.edits.size()));
+  EXPECT_THAT(salvaged.faults, ElementsAre("edits from " + std::to_string(salvaged.edits.size()) +
+                                           " on: cannot be read"));
+  EXPECT_THAT([&] { static_cast<void>(write()); },
+              ThrowsMessage<DamagedSession>(HasSubstr("session export")));
+}
+
+TEST_F(SessionFile, BehindAPageThatIsLostItGoesOn) {
+  std::vector<Edit> edits;
+  for (std::size_t i = 0; i < 500; ++i) edits.push_back(edit(i));
+  write().append(edits);
+  std::string bytes = read_file(path_);
+  const std::size_t page = bytes.find(to_line(edits[250])) / 4096;
+  bytes.replace(page * 4096, 4096, 4096, '\0');
+  std::ofstream(path_, std::ios::binary | std::ios::trunc) << bytes;
+  const Salvaged salvaged = salvage(read());
+  EXPECT_GT(salvaged.edits.size(), 450U);
+  EXPECT_EQ(salvaged.edits.back(), 499U);
+  EXPECT_THAT(salvaged.faults,
+              ElementsAre(HasSubstr(": cannot be read"), HasSubstr(": cannot be checked")));
+}
+
+TEST_F(SessionFile, ADamagedHeaderIsMendedAsItSays) {
+  write().append(std::vector{edit(0)});
+  const std::string good = read_file(path_);
+  for (std::size_t place = 0; place < 24; ++place) {
+    damage(path_, good, place);
+    std::string words;
+    try {
+      if (all(read()) == std::vector{edit(0)}) continue;
+    } catch (const DamagedSession& error) {
+      words = error.what();
+    }
+    const std::size_t command = words.find("printf");
+    ASSERT_NE(command, std::string::npos) << place << ": " << words;
+    words.replace(words.rfind("COPY"), 4, path_);
+    ASSERT_EQ(std::system((words.substr(command) + " 2>/dev/null").c_str()), 0);
+    EXPECT_EQ(read_file(path_), good);
+  }
 }
 
 /// Appends edits until it is killed; says of each that it is kept.

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "io/surfaces.h"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <OpenMesh/Core/IO/MeshIO.hh>
+#include <array>
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -79,6 +85,66 @@ TEST(AtomicFile, AppearsOnlyWhenItIsComplete) {
   EXPECT_EQ(testing::content(path), "first");
   second.commit();
   EXPECT_EQ(testing::content(path), "second");
+  EXPECT_EQ(folder.size(), 1U);
+}
+
+TEST(AtomicFile, WritesIntoAPipeAndLeavesItThere) {
+  const Folder folder;
+  const auto path = folder / "pipe";
+  ASSERT_EQ(::mkfifo(path.c_str(), 0600), 0);
+  { const AtomicFile tried(path); }  // waits for no reader
+  const int reader = ::open(path.c_str(), O_RDONLY | O_NONBLOCK);
+  AtomicFile file(path);
+  file.stream() << "through";
+  file.commit();
+  std::array<char, 16> read{};
+  EXPECT_EQ(::read(reader, read.data(), read.size()), 7);
+  EXPECT_STREQ(read.data(), "through");
+  ::close(reader);
+  EXPECT_TRUE(std::filesystem::is_fifo(path));
+  EXPECT_EQ(folder.size(), 1U);
+}
+
+TEST(AtomicFile, AppendsToWhatADescriptorHasOpen) {
+  const Folder folder;
+  const auto path = folder.write("a.txt", "before, ");
+  const int descriptor = ::open(path.c_str(), O_WRONLY);
+  AtomicFile file("/dev/fd/" + std::to_string(descriptor));
+  file.stream() << "after";
+  file.commit();
+  ::close(descriptor);
+  EXPECT_EQ(testing::content(path), "before, after");
+}
+
+TEST(AtomicFile, ReplacesWhatALinkLeadsTo) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "kept");
+  std::filesystem::create_symlink("kept/a.txt", folder / "link");
+  for (const std::string text : {"new", "newer"}) {
+    AtomicFile file(folder / "link");
+    EXPECT_EQ(file.temporary().parent_path(), folder / "kept");
+    file.stream() << text;
+    file.commit();
+    EXPECT_TRUE(std::filesystem::is_symlink(folder / "link"));
+    EXPECT_EQ(testing::content(folder / "kept" / "a.txt"), text);
+  }
+}
+
+TEST(AtomicFile, TakesOverWhatAKilledProcessLeft) {
+  const Folder folder;
+  const auto path = folder / "a.txt";
+  const pid_t child = ::fork();
+  if (child == 0) {
+    AtomicFile file(path);
+    file.stream() << "half of something longer" << std::flush;
+    ::kill(::getpid(), SIGKILL);
+  }
+  ::waitpid(child, nullptr, 0);
+  EXPECT_EQ(folder.size(), 1U);
+  AtomicFile file(path);
+  file.stream() << "whole";
+  file.commit();
+  EXPECT_EQ(testing::content(path), "whole");
   EXPECT_EQ(folder.size(), 1U);
 }
 
