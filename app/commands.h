@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -77,7 +78,8 @@ struct StreamCommand {
   std::optional<std::filesystem::path> session;
   Options options;
   std::string unit = "mm";
-  std::size_t every = 0;  ///< edits after which the outputs are written; 0: at the end only
+  std::set<std::string> given;  ///< settings (settings.h) that the command line names
+  std::size_t every = 0;        ///< edits after which the outputs are written; 0: at the end only
   bool serves = false;
   std::string host = "127.0.0.1";
   int port = 8337;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <exception>
@@ -230,7 +231,8 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   sub->add_option("--every", command.every, "Write the outputs after every N edits, too")
-      ->type_name("N");
+      ->type_name("N")
+      ->check(CLI::Range(0, 1'000'000'000));
   sub->add_option("--replay", command.replay,
                   "GLB file, written at the end: an animation in which the slabs appear as they "
                   "came; of a session, too")
@@ -273,6 +275,24 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
       "  loft stream --no-input --port 8337 --session capture.session -o part.ply\n"
       "  curl --data-binary @slices.ndjson http://127.0.0.1:8337/slices");
   return sub;
+}
+
+/// Notes which of a session's settings the command line names, and what makes no sense in it.
+void look_at_options(const CLI::App& sub, StreamCommand& command) {
+  for (const char* setting :
+       {"fill", "keyhole_width", "cap", "link", "max_shift", "smooth", "unit"}) {
+    std::string option = std::string("--") + setting;
+    std::ranges::replace(option, '_', '-');
+    if (sub.count(option) > 0) command.given.insert(setting);
+  }
+  const bool has_file = command.input && *command.input != "-";
+  if (!command.has_input && command.input)
+    throw UsageError("--no-input and a file of edits exclude each other");
+  if (!command.has_input && !command.serves && !command.session)
+    throw UsageError("nothing to do: --no-input needs --port, --view or --session");
+  if (command.follows && !has_file) throw UsageError("--follow needs a file of edits");
+  if (sub.count("--host") > 0 && !command.serves)
+    throw UsageError("--host needs --port or --view: nothing would listen there");
 }
 
 /// Adds `loft view`; the command is ready when the line has been parsed.
@@ -390,7 +410,10 @@ ExitCode run_program(int argc, char** argv) {
     return app.exit(error) == 0 ? ExitCode::ok : ExitCode::usage;
   }
   if (reconstruct_app->parsed()) return run(reconstruct);
-  if (stream_app->parsed()) return run(stream);
+  if (stream_app->parsed()) {
+    look_at_options(*stream_app, stream);
+    return run(stream);
+  }
   if (view_app->parsed()) return run(view);
   if (session_app->parsed()) return run(session);
   if (triangulate_app->parsed()) return run(triangulate);

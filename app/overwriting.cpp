@@ -7,16 +7,15 @@
 
 namespace loft::app {
 
-namespace {
-
 using std::filesystem::path;
 
 bool is_same_file(const path& a, const path& b) {
   std::error_code ignored;
-  return std::filesystem::equivalent(a, b, ignored);
+  if (std::filesystem::equivalent(a, b, ignored)) return true;
+  // Neither has to be there yet.
+  return std::filesystem::weakly_canonical(std::filesystem::absolute(a), ignored) ==
+         std::filesystem::weakly_canonical(std::filesystem::absolute(b), ignored);
 }
-
-}  // namespace
 
 void forbid_overwriting(std::span<const path> inputs, std::span<const path> outputs) {
   for (const path& output : outputs) {

@@ -6,13 +6,13 @@
 
 namespace loft::app {
 
-Saver::~Saver() {
+void Saver::finish() {
   {
     const std::lock_guard lock(mutex_);
     is_ended_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Saver::request() {

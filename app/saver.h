@@ -14,12 +14,13 @@ namespace loft::app {
 class Saver {
  public:
   explicit Saver(std::function<void()> save) : save_(std::move(save)), thread_([this] { run(); }) {}
-  /// Does what was asked for before.
-  ~Saver();
+  ~Saver() { finish(); }
   Saver(const Saver&) = delete;
   Saver& operator=(const Saver&) = delete;
 
   void request();
+  /// Does what was asked for before, and then nothing any more.
+  void finish();
   /// What went wrong last, each once; empty if nothing did.
   [[nodiscard]] std::string take_error();
 

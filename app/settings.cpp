@@ -57,20 +57,15 @@ std::map<std::string, std::string> settings_of(const StreamCommand& command) {
 }
 
 void take_over(const std::map<std::string, std::string>& settings, StreamCommand& command) {
-  const auto usual = settings_of(StreamCommand());
   const auto asked = settings_of(command);
-  for (const auto& [key, value] : settings) {
-    const auto wanted = asked.find(key);
-    const bool is_asked =
-        wanted != asked.end() && (!usual.contains(key) || wanted->second != usual.at(key));
-    if (is_asked && wanted->second != value)
-      throw UsageError("the session was begun with " + key + ' ' + value + ", not " +
-                       wanted->second + "; leave the option out, or begin another session");
-  }
-  for (const auto& [key, value] : asked) {
-    if (settings.contains(key) || usual.contains(key)) continue;
-    throw UsageError("the session was begun without " + key +
-                     "; leave the option out, or begin another session");
+  for (const std::string& key : command.given) {
+    const auto begun = settings.find(key);
+    if (begun == settings.end())
+      throw UsageError("the session was begun without " + key +
+                       "; leave the option out, or begin another session");
+    if (begun->second != asked.at(key))
+      throw UsageError("the session was begun with " + key + ' ' + begun->second + ", not " +
+                       asked.at(key) + "; leave the option out, or begin another session");
   }
   for (const auto& [key, value] : settings) set(command, key, value);
 }

@@ -11,8 +11,8 @@ namespace loft::app {
 /// What a session has to remember so that resuming it makes the same surface.
 [[nodiscard]] std::map<std::string, std::string> settings_of(const StreamCommand& command);
 
-/// Takes the settings of a session over where the command line says nothing else. Throws UsageError
-/// where it does, naming both.
+/// Takes the settings of a session over. Throws UsageError where the command line names another one
+/// (StreamCommand::given), with both.
 void take_over(const std::map<std::string, std::string>& settings, StreamCommand& command);
 
 }  // namespace loft::app

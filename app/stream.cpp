@@ -48,6 +48,9 @@ void check_outputs(const StreamCommand& command) {
   for (const path& output : command.outputs) io::check_writable(output);
   if (!command.replay) return;
   forbid_overwriting(inputs, std::array{*command.replay});
+  for (const path& output : command.outputs)
+    if (is_same_file(output, *command.replay))
+      throw UsageError(output.string() + " is an output and the replay; give them two names");
   if (io::extension(*command.replay) != ".glb")
     throw UsageError(command.replay->string() + ": a replay is a .glb file");
   io::check_writable(*command.replay);
@@ -70,6 +73,29 @@ Capture::Setup setup_of(const StreamCommand& command) {
   setup.metres_per_unit = metres_per_unit(command.unit).value_or(0.001);
   return setup;
 }
+
+/// Actions of which one may fail and the others are done all the same.
+class Attempts {
+ public:
+  template <class Action>
+  void make(Action action) {
+    try {
+      action();
+    } catch (const Error& error) {
+      errors_.emplace_back(error.what());
+    }
+  }
+  [[nodiscard]] const std::vector<std::string>& errors() const { return errors_; }
+  /// Throws Error if there was any.
+  void check() const {
+    std::string words;
+    for (const std::string& error : errors_) words += (words.empty() ? "" : "\n") + error;
+    if (!words.empty()) throw Error(words);
+  }
+
+ private:
+  std::vector<std::string> errors_;
+};
 
 bool is_file(const std::optional<path>& input) { return input && *input != "-"; }
 
@@ -206,7 +232,8 @@ class Stream {
     if (const std::string error = saver_.take_error(); !error.empty()) complain(error);
   }
 
-  /// Of the surface as it is; none as long as there is none.
+  /// Of the surface as it is; none as long as there is none. All that can be written are; throws
+  /// what was wrong with the others.
   void write_outputs() {
     const std::shared_ptr<const CaptureView> view = capture_.view();
     const Surfaces surfaces(*view);
@@ -216,25 +243,24 @@ class Stream {
     options.settings = settings_of(command_);
     options.settings.erase("unit");
     if (!command_.options.smooth) options.settings.erase("smooth");
-    for (const path& output : command_.outputs) io::write(output, surfaces.parts(), options);
+    Attempts attempts;
+    for (const path& output : command_.outputs)
+      attempts.make([&] { io::write(output, surfaces.parts(), options); });
+    attempts.check();
   }
 
+  /// The outputs come first: requests that take long may hold the server up.
   ExitCode finish() {
-    server_.reset();
     capture_.close();
-    feed_.close();
+    saver_.finish();  // what it writes is older
+    if (const std::string error = saver_.take_error(); !error.empty()) complain(error);
     const Json status = capture_.status();
     const bool has_surface = status["faces"] > 0;
-    if (has_surface) {
-      write_outputs();
-      for (const path& output : command_.outputs) terminal_.say("wrote " + output.string());
-      if (command_.replay) {
-        recorder_.write(*command_.replay);
-        terminal_.say("wrote " + command_.replay->string());
-      }
-    } else if (!command_.outputs.empty() || command_.replay) {
+    const bool is_written = !has_surface || write_all();
+    if (!has_surface && (!command_.outputs.empty() || command_.replay))
       terminal_.warn("there is no surface: it needs two slices with an area; nothing was written");
-    }
+    feed_.close();
+    server_.reset();
     const std::uint64_t rejected = bad_lines_ + capture_.rejected_count();
     terminal_.say(grouped(capture_.edit_count()) + " edits, " + grouped(rejected) + " rejected; " +
                   grouped(status["slices"].get<std::size_t>()) + " slices, " +
@@ -244,9 +270,26 @@ class Stream {
       complain(grouped(count) + " edits were not kept; send them again");
       return ExitCode::cannot_write;
     }
+    if (!is_written) return ExitCode::cannot_write;
     if (is_unreadable_) return ExitCode::bad_input;
     if (rejected > 0 && command_.strict) return ExitCode::bad_input;
     return ExitCode::ok;
+  }
+
+  /// Outputs and replay. Whether all of them could be written.
+  bool write_all() {
+    Attempts attempts;
+    attempts.make([&] {
+      write_outputs();
+      for (const path& output : command_.outputs) terminal_.say("wrote " + output.string());
+    });
+    if (command_.replay)
+      attempts.make([&] {
+        recorder_.write(*command_.replay);
+        terminal_.say("wrote " + command_.replay->string());
+      });
+    for (const std::string& error : attempts.errors()) complain(error);
+    return attempts.errors().empty();
   }
 
   void print_report(Json status, std::uint64_t rejected) const {

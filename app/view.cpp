@@ -32,6 +32,7 @@ class SessionView {
   /// As it was begun.
   static Capture::Setup setup_of(const ViewCommand& command) {
     StreamCommand begun;
+    if (command.unit != begun.unit) begun.given.insert("unit");
     begun.unit = command.unit;
     take_over(io::Session(command.file, io::Session::Access::read).settings(), begun);
     Capture::Setup setup;

@@ -513,9 +513,47 @@ TEST(Session, ResumesWithItsSettings) {
   std::ofstream(folder / "all.ndjson") << stack(4);
   ASSERT_EQ(run(folder, "reconstruct all.ndjson --cap dome -o all.ply").exit_code, 0);
   EXPECT_EQ(triangles(folder / "out.ply"), triangles(folder / "all.ply"));
-  const Outcome other = run(folder, "stream --session c.session --cap open");
-  EXPECT_EQ(other.exit_code, 2);
-  EXPECT_THAT(other.err, HasSubstr("was begun with cap dome, not open"));
+  for (const std::string cap : {"open", "flat"}) {
+    const Outcome other = run(folder, "stream --session c.session --cap " + cap);
+    EXPECT_EQ(other.exit_code, 2);
+    EXPECT_THAT(other.err, HasSubstr("was begun with cap dome, not " + cap));
+  }
+  EXPECT_EQ(run(folder, "stream --session c.session --max-shift 3").exit_code, 2);
+  EXPECT_EQ(run(folder, "stream --session c.session --cap dome --unit um").exit_code, 0);
+}
+
+TEST(Stream, OptionsThatMakeNoSenseAreRefused) {
+  const Folder folder;
+  std::ofstream(folder / "in.ndjson") << stack(3);
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {"in.ndjson --no-input --port 0", "exclude each other"},
+      {"--no-input -o a.ply", "nothing to do"},
+      {"--follow", "needs a file"},
+      {"- --follow", "needs a file"},
+      {"in.ndjson --host ::1", "needs --port or --view"},
+      {"in.ndjson --every -1", "--every"},
+      {"in.ndjson -o same.glb --replay same.glb", "two names"},
+      {"in.ndjson -o ./same.ply --session same.ply", "will not be overwritten"},
+  };
+  for (const auto& [words, expected] : cases) {
+    const Outcome outcome = run(folder, "stream " + words);
+    EXPECT_EQ(outcome.exit_code, 2) << words;
+    EXPECT_THAT(outcome.err, HasSubstr(expected)) << words;
+  }
+}
+
+TEST(Stream, AnOutputThatCannotBeWrittenLeavesTheOthers) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "gone");
+  Running running(folder, {"stream", "--no-input", "--port", "0", "-o", "gone/a.ply", "-o", "b.ply",
+                           "--replay", "c.glb", "--json"});
+  ASSERT_TRUE(running.client()->Post("/slices", stack(3), "application/x-ndjson"));
+  std::filesystem::remove_all(folder / "gone");
+  EXPECT_EQ(running.interrupt(), 4);
+  EXPECT_THAT(content(folder / "err.txt"), HasSubstr("gone/a.ply"));
+  EXPECT_THAT(content(folder / "out.txt"), HasSubstr("loft-stream"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "c.glb"));
+  expect_surface_of(folder, stack(3), "b.ply");
 }
 
 TEST(Session, AFileIsTakenInOnce) {
