@@ -24,6 +24,7 @@
 #include "io/slab_glb.h"
 #include "io/slices_json.h"
 #include "io/surfaces.h"
+#include "io/text.h"
 
 namespace loft::app {
 
@@ -217,7 +218,7 @@ class Server::Routes {
     if (static_cast<std::size_t>(std::ranges::count(*body, '\n')) > most_lines)
       return refuse(response, 413,
                     "more than " + std::to_string(most_lines) + " lines; send fewer edits at once");
-    std::list<Line> lines = submit(*body);
+    std::list<Line> lines = submit(io::without_mark(*body));
     if (lines.empty()) return refuse(response, 400, "no edits in the body; a line each");
     int status = 200;
     Json results = Json::array();

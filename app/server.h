@@ -19,8 +19,9 @@ namespace loft::app {
 ///                             the surface and, with a session, durable. 200 if all were taken;
 ///                             each line is by itself: where some are bad the others are taken all
 ///                             the same, and the answer says of each what became of it. 400 a line
-///                             is no edit, 413 too large, 422 an edit was rejected, 503 too many
-///                             wait (Retry-After), 507 the session could not be written: none was
+///                             is no edit, 408 too slow, 411 of unknown length, 413 too large, 422
+///                             an edit was rejected, 503 too many wait (Retry-After): none from
+///                             there on was taken, 507 the session could not be written: none was
 ///                             kept
 ///     GET /surface.glb        the surface as it is; also .gltf .ply .stl .obj .off; of a file that
 ///                             is only shown, in its own format

@@ -345,6 +345,12 @@ TEST_F(Posting, SaysSoMuchOfALineAndCountsTheRest) {
   EXPECT_THAT(refused->body, HasSubstr("and 900 more"));
 }
 
+TEST_F(Posting, TakesABodyWithAByteOrderMark) {
+  const auto answer = post("\xEF\xBB\xBF" + leaning(1));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200) << answer->body;
+}
+
 TEST_F(Posting, SaysThatASliceCameTwice) {
   const auto answer = post(leaning(1) + leaning(1));
   ASSERT_TRUE(answer);
