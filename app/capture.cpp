@@ -178,6 +178,7 @@ void Capture::give_back_held(std::vector<Job>& jobs) {
 /// Applies some edits, keeps them, answers.
 void Capture::work_off(std::vector<Job> jobs) {
   give_back_held(jobs);
+  begin_batch();
   std::vector<Applied> all;
   std::vector<Edit> taken;
   std::optional<io::InputPosition> position;
@@ -226,9 +227,18 @@ void Capture::work_off(std::vector<Job> jobs) {
       view_.reset();
       show_undone(undone);
     }
+    is_unpublished_ = false;
   }
+  published_.notify_all();
   for (std::size_t i = 0; i < jobs.size(); ++i)
     if (jobs[i].done) jobs[i].done(all[i].answer);
+}
+
+/// From now on there are slabs that no event has told of. Viewers that start go first.
+void Capture::begin_batch() {
+  std::unique_lock lock(state_mutex_);
+  published_.wait(lock, [this] { return !is_waited_for_; });
+  is_unpublished_ = true;
 }
 
 // --- The surfaces ---
@@ -286,7 +296,12 @@ std::pair<std::string, std::uint64_t> Capture::reset_event() const {
   Json event;
   std::uint64_t next = 0;
   {
-    const std::lock_guard lock(state_mutex_);
+    std::unique_lock lock(state_mutex_);
+    // What no event has told of yet would come a second time.
+    is_waited_for_ = true;
+    published_.wait(lock, [this] { return !is_unpublished_; });
+    is_waited_for_ = false;
+    published_.notify_all();
     next = feed_.last() + 1;
     if (reset_ && reset_->second == next) return *reset_;
     for_each_slab([&](const SlabKey& key, const std::string& label, const SlabInfo& slab) {
@@ -318,6 +333,11 @@ std::shared_ptr<const CaptureView> Capture::view_now() {
   auto view = std::make_shared<CaptureView>();
   for (const LabelledSurfaces::Part& part : surfaces_.parts())
     view->parts.push_back({part.label, part.surface->snapshot()});
+  const auto is_empty = [](const CaptureView::Part& part) {
+    return part.snapshot.slab_count() == 0;
+  };
+  // What comes next may be far away.
+  if (std::ranges::all_of(view->parts, is_empty)) origin_.reset();
   for (const CaptureView::Part& part : view->parts) {
     if (origin_ || part.snapshot.slab_count() == 0) continue;
     const Patch patch = part.snapshot.patch(0, 1);

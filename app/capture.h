@@ -121,6 +121,7 @@ class Capture {
   };
   struct Applied;
 
+  void begin_batch();
   void repeat_session();
   void resume_session();
   void note_births(const std::map<double, std::uint64_t>& last_edits);
@@ -151,6 +152,9 @@ class Capture {
   std::shared_ptr<const CaptureView> view_;
   std::optional<Vec3> origin_;
   std::map<SlabKey, std::uint64_t> births_;  // the edit that made each slab
+  bool is_unpublished_ = false;              // edits are applied that no event has told of
+  mutable bool is_waited_for_ = false;       // by a viewer that starts
+  mutable std::condition_variable published_;
   std::uint64_t edits_ = 0;
   std::uint64_t rejected_ = 0;
   std::deque<double> latencies_;  // of the last edits

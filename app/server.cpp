@@ -363,7 +363,11 @@ class Server::Routes {
       return refuse(response, 503, "too many viewers");
     }
     auto cursor = std::make_shared<Cursor>();
-    cursor->next = next_event(request.get_header_value("Last-Event-ID"));
+    // Browsers send the header when they come back by themselves; pages that do it can't.
+    const std::string last = request.has_header("Last-Event-ID")
+                                 ? request.get_header_value("Last-Event-ID")
+                                 : request.get_param_value("after");
+    cursor->next = next_event(last);
     response.set_header("X-Accel-Buffering", "no");
     response.set_chunked_content_provider(
         "text/event-stream",

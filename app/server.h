@@ -28,8 +28,8 @@ namespace loft::app {
 ///     GET /slabs/{id}.glb     a slab (io/slab_glb.h); 404 when it is gone
 ///     GET /slices             all heights; ?z=1.25 the slice at that height, as a line
 ///     GET /events             server-sent events: `reset` with all that there is, then `change`
-///                             for each edit; a reader that comes back with Last-Event-ID gets what
-///                             it has missed
+///                             for each edit; a reader that comes back with Last-Event-ID, or
+///                             ?after= with the last one's id, gets what it has missed
 ///     GET /status             counts, latencies, memory
 ///     GET /                   the viewer
 ///

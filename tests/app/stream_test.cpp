@@ -13,6 +13,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <thread>
 #include <vector>
@@ -224,10 +225,10 @@ TEST(Stream, WritesItsOutputsOnRequestAndEverySoOften) {
 
 /// Reads server-sent events until it is enough.
 std::vector<std::string> read_events(httplib::Client& client, const httplib::Headers& headers,
-                                     std::size_t count) {
+                                     std::size_t count, const std::string& path = "/events") {
   std::vector<std::string> events;
   std::string text;
-  client.Get("/events", headers, [&](const char* bytes, std::size_t size) {
+  client.Get(path, headers, [&](const char* bytes, std::size_t size) {
     text.append(bytes, size);
     for (std::size_t end = text.find("\n\n"); end != std::string::npos; end = text.find("\n\n")) {
       if (text[0] != ':') events.push_back(text.substr(0, end));
@@ -420,6 +421,8 @@ TEST_F(Posting, AReaderThatComesBackGetsWhatItHasMissed) {
   ASSERT_EQ(missed.size(), 2U);
   EXPECT_THAT(missed[0], AllOf(HasSubstr("event: change"), HasSubstr("\"slices_added\":[2.0]")));
   EXPECT_THAT(missed[1], AllOf(HasSubstr("event: change"), HasSubstr("\"slices_added\":[3.0]")));
+  const auto after = read_events(*running_.client(), {}, 2, "/events?after=" + id);
+  EXPECT_EQ(after, missed);
   auto stranger = running_.client();
   EXPECT_THAT(read_events(*stranger, {{"Last-Event-ID", "12345.1"}}, 1)[0],
               HasSubstr("event: reset"));
@@ -455,6 +458,43 @@ std::string random_body(std::mt19937& random) {
     }
   }
   return body;
+}
+
+/// What a reader knows that starts while edits come in: what the first event says, then each
+/// change.
+TEST(Session, AReaderThatStartsBetweenEditsKnowsEachSlabOnce) {
+  const Folder folder;
+  // A session: keeping edits takes a while, in which they are applied but not told.
+  Running running(folder, {"stream", "--no-input", "--port", "0", "--session", "c"});
+  const auto client = running.client();
+  for (int round = 0; round < 30; ++round) {
+    std::thread sender([&] {
+      const auto poster = running.client();
+      ASSERT_TRUE(poster->Post("/slices", stack(50, 100), "application/x-ndjson"));
+    });
+    std::this_thread::sleep_for(std::chrono::milliseconds(round));
+    std::set<std::string> known;
+    const int end = 100 * round + 50;
+    int last = -1;
+    std::string text;
+    running.client()->Get("/events", [&](const char* bytes, std::size_t size) {
+      text.append(bytes, size);
+      for (auto stop = text.find("\n\n"); stop != std::string::npos; stop = text.find("\n\n")) {
+        const auto begin = text.find("data: ") + 6;
+        const json event = json::parse(text.substr(begin, stop - begin));
+        text.erase(0, stop + 2);
+        for (const json& id : event.value("removed", json::array()))
+          EXPECT_EQ(known.erase(id.get<std::string>()), 1U) << id;
+        for (const json& slab : event.contains("slabs") ? event["slabs"] : event["added"])
+          EXPECT_TRUE(known.insert(slab["id"].get<std::string>()).second) << slab["id"];
+        last = event["edits"];
+      }
+      return last < end;
+    });
+    sender.join();
+    EXPECT_EQ(known.size(), 49U);
+    ASSERT_TRUE(client->Post("/slices", remove_all(*client), "application/x-ndjson"));
+  }
 }
 
 TEST_F(Posting, NoBodyMakesItFall) {
