@@ -5,9 +5,10 @@ import { readPng } from './png.mjs';
 
 const patience = 60_000;  // ms; for slow machines: nothing waits that long where all is well
 
-export async function startBrowser() {
+export async function startBrowser(...more) {
   return chromium.launch({ executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium',
-    args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader'] });
+    args: ['--no-sandbox', '--disable-dev-shm-usage', '--use-angle=swiftshader', '--enable-unsafe-swiftshader',
+           ...more] });
 }
 
 export class Viewer {
@@ -52,7 +53,7 @@ export class Viewer {
   }
 
   async settle() {
-    await this.page.waitForSelector('#view[aria-busy="false"]');
+    await this.page.waitForSelector('#canvas[aria-busy="false"]');
     await this.page.evaluate(() => new Promise((resolve) => {
       requestAnimationFrame(() => requestAnimationFrame(resolve));
     }));

@@ -11,7 +11,10 @@ class Picture {
   now = 0;
 
   change(removed, added) { return this.slabs.change(removed, added, this.now); }
-  arrive(slab) { this.slabs.arrive(slab, this.now); }
+  arrive(slab) {
+    this.slabs.arrive(slab, this.now);
+    this.slabs.settle(this.now);
+  }
   get ids() { return [...this.shown].map((slab) => slab.id).sort(); }
 }
 

@@ -140,6 +140,87 @@ async function assertChange(from, pictures, what) {
   return assert.fail(`nothing changes by ${what}`);
 }
 
+// How many pixels show the surface, or anything else but the background.
+function coverage({ width, height, channels, pixels }) {
+  const background = [...pixels.subarray(0, 3)];
+  let count = 0;
+  for (let i = 0; i < width * height * channels; i += channels)
+    if ([0, 1, 2].some((k) => Math.abs(pixels[i + k] - background[k]) > 12)) ++count;
+  return count;
+}
+
+test('plus goes nearer, minus farther', async () => {
+  await loft.post(square(0, 5), square(4, 5));
+  await viewer.waitForSlabs(1);
+  await viewer.page.locator('#canvas').focus();
+  const pictures = [await viewer.picture()];
+  for (const key of ['-', '+', '+', '+']) {
+    await viewer.page.keyboard.press(key);
+    await assertChange(pictures.at(-1), pictures, key);
+  }
+  const sizes = pictures.map(coverage);
+  assert.ok(sizes[1] < sizes[0] && sizes[2] > sizes[1] && sizes[4] > sizes[3], String(sizes));
+});
+
+test('another session, far away, takes the place of the first', async () => {
+  await loft.post(...[0, 2, 4, 6, 8, 10].map((z) => square(z, 5)));
+  await viewer.waitForSlabs(5);
+  await viewer.page.locator('#canvas').focus();
+  await viewer.page.keyboard.press('ArrowLeft');  // the view belongs to the user from here on
+  await loft.end('SIGKILL');
+  await viewer.page.waitForSelector('#banner', { state: 'visible' });
+  await rm(join(folder, 'session'));
+  await rm(join(folder, 'session-wal'), { force: true });
+  await rm(join(folder, 'session-shm'), { force: true });
+  loft = await stream(loft.port);
+  await viewer.page.waitForSelector('#banner', { state: 'hidden' });
+  await loft.post(square(1e7, 5), square(1e7 + 4, 5));
+  await viewer.waitForSlabs(1);
+  await viewer.page.waitForFunction(() => document.getElementById('slice').max === '1');
+  for (let i = 0; i < 50 && !(await isSurfaceInTheMiddle()); ++i) await viewer.settle();
+  assert.equal(await isSurfaceInTheMiddle(), true);
+  assert.equal(await viewer.isTheSamePage(), true);
+});
+
+test('a page that knows all asks for nothing again', async () => {
+  await loft.post(square(0, 5), square(4, 5), square(8, 5));
+  await viewer.waitForSlabs(2);
+  await viewer.page.waitForTimeout(500);  // slabs beside an edit are renewed
+  const asked = [];
+  viewer.page.on('request', (request) => asked.push(request.url()));
+  await viewer.page.evaluate(() => dispatchEvent(new Event('online')));
+  await loft.post(square(8, 4, 'replace'));
+  await viewer.waitForText('edits', '4');
+  await viewer.settle();
+  assert.ok(asked.every((url) => !url.includes('events')), String(asked));
+  assert.equal(asked.filter((url) => url.includes('/slabs/0-0.glb')).length, 0);
+});
+
+test('what was picked is forgotten when its slice changes', async () => {
+  await loft.post(square(0, 5), square(4, 5));
+  await viewer.waitForSlabs(1);
+  await viewer.page.locator('#canvas').focus();
+  await viewer.page.keyboard.press('p');
+  await viewer.page.waitForFunction(() => document.getElementById('pick').textContent.includes('Point'));
+  const z = /z (\S+)/.exec(await viewer.text('pick'))[1];
+  await loft.post(square(Number(z), 4, 'replace'));
+  await viewer.page.waitForFunction(() => document.getElementById('pick').textContent === '');
+});
+
+test('without WebGL there are figures and downloads', async () => {
+  await loft.post(square(0, 5), square(4, 5));
+  const plain = await startBrowser('--disable-3d-apis');
+  try {
+    const page = await Viewer.open(plain, loft.url);
+    await page.page.waitForSelector('#no-picture', { state: 'visible' });
+    await page.waitForText('slices', '2');
+    assert.equal(await page.number('volume'), 400);
+    assert.equal(await page.page.locator('#downloads a').count(), 2);
+  } finally {
+    await plain.close();
+  }
+});
+
 test('the keyboard turns, zooms, fits and helps', async () => {
   await loft.post(square(0, 5), square(4, 2));
   await viewer.waitForSlabs(1);

@@ -42,7 +42,7 @@ export function colouring(mode, slabs) {
   if (mode === 'confidence') return byConfidence();
   const labels = new Map();
   for (const slab of slabs) if (slab.colour) labels.set(slab.label, byLabel(slab));
-  return { of: byLabel, labels: [...labels].sort(([a], [b]) => (a < b ? -1 : 1)) };
+  return { of: byLabel, labels: [...labels].sort(([a], [b]) => a.localeCompare(b, 'en', { numeric: true })) };
 }
 
 function add(parent, name, className, text = '') {
@@ -65,6 +65,6 @@ export function explain(list, { gradient: bar, ends, labels }) {
   for (const [label, colour] of labels) {
     const item = add(list, 'li', '');
     add(item, 'span', 'swatch').style.backgroundColor = `#${colour.getHexString()}`;
-    item.append(label || 'no label');
+    add(item, 'span', 'name', label || 'no label');
   }
 }

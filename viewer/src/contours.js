@@ -22,7 +22,10 @@ export class Contours {
     this.#heights = new Set(heights);
     this.#slices.clear();
     this.#marks.clear();
-    for (const z of [...this.#waiting.keys()]) this.#add(z);
+    for (const z of [...this.#waiting.keys()]) {
+      if (this.#heights.has(z)) this.#add(z);
+      else this.#answer(z, undefined);
+    }
   }
 
   change(removed, added) {

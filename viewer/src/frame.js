@@ -9,6 +9,8 @@ export function nameOf(unit) {
   return Number.isNaN(Number(unit)) ? unit : 'units';
 }
 
+const farthest = 1e4;  // in the scene, where things are 1 to 10 in size
+
 export class Frame {
   #metres;
   #origin;
@@ -28,6 +30,12 @@ export class Frame {
       positions[i] = (positions[i] + shift) * this.#scale;
     }
     return positions;
+  }
+
+  // Whether coordinates about another origin would lose their last digits here.
+  isFarFrom(origin) {
+    const distance = Math.hypot(...origin.map((value, axis) => value - this.#origin[axis]));
+    return distance * this.#scale > farthest;
   }
 
   toScene(x, y, z, target = new Vector3()) {

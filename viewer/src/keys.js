@@ -3,9 +3,14 @@
 
 const turn = Math.PI / 24;
 const zooms = { '+': 'dollyIn', '=': 'dollyIn', '-': 'dollyOut' };
+const nearer = 1 / 1.15;  // what dollyIn multiplies the distance by
 
-function isTyping(target) {
-  return target instanceof HTMLInputElement || target instanceof HTMLSelectElement;
+// Arrows move sliders and choose in lists; letters choose in lists.
+function takesArrows(target) {
+  return target instanceof HTMLSelectElement || target.type === 'range';
+}
+function takesLetters(target) {
+  return target instanceof HTMLSelectElement;
 }
 
 function move(controls, event) {
@@ -26,14 +31,14 @@ export function listenToKeys(stage, actions) {
   addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
     if (document.querySelector('dialog[open]')) return;
-    if (event.key.startsWith('Arrow') && !isTyping(event.target)) {
+    if (event.key.startsWith('Arrow') && !takesArrows(event.target)) {
       move(stage.controls, event);
     } else if (event.key in zooms) {
       stage.controls.dispatchEvent({ type: 'start' });
-      stage.controls[zooms[event.key]](1.15);
+      stage.controls[zooms[event.key]](nearer);
     } else {
       const action = actions[event.key.toLowerCase()];
-      if (!action) return;
+      if (!action || (takesLetters(event.target) && event.key !== 'Escape')) return;
       action();
     }
     event.preventDefault();

@@ -11,10 +11,10 @@ export class Loader {
     this.#limit = limit;
   }
 
-  // `isWanted` is asked just before the request; `take` gets the response.
-  // A request that fails, but for 404, is tried again a little later.
-  fetch(address, isWanted, take) {
-    this.#waiting.push({ address, isWanted, take, tries: 0 });
+  // `isWanted` is asked just before the request; `take` gets the response, `miss` is called where
+  // there is none (404). A request that fails otherwise is tried again a little later.
+  fetch(address, isWanted, take, miss = () => {}) {
+    this.#waiting.push({ address, isWanted, take, miss, tries: 0 });
     if (this.#waiting.length % 1024 === 0)
       this.#waiting = this.#waiting.filter((wish) => wish.isWanted());
     this.#next();
@@ -32,7 +32,8 @@ export class Loader {
     try {
       const response = await fetch(wish.address);
       if (response.ok) await wish.take(response);
-      else if (response.status !== 404) throw new Error(`${wish.address}: ${response.status}`);
+      else if (response.status === 404) wish.miss();
+      else throw new Error(`${wish.address}: ${response.status}`);
     } catch {
       this.#later(wish);
     }

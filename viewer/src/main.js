@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 import { Events } from './events.js';
 import { onClick } from './pick.js';
+import { nameOf } from './frame.js';
 import { listenToKeys } from './keys.js';
 import { Panel } from './panel.js';
 import { Settings } from './settings.js';
@@ -13,7 +14,18 @@ const panel = new Panel();
 const theme = new Theme();
 const settings = new Settings();
 const events = new Events();
-const view = new View(element('canvas'), [...document.querySelectorAll('#lengths span')], panel);
+const view = makeView();
+
+// None where the browser has no WebGL.
+function makeView() {
+  const lengths = [...document.querySelectorAll('#lengths span')];
+  try {
+    return new View(element('canvas'), lengths, panel, () => events.restart());
+  } catch {
+    element('no-picture').hidden = false;
+    return undefined;
+  }
+}
 
 function applyTheme() {
   view.setColours({ background: theme.colour('stage'), grid: theme.colour('grid'),
@@ -29,6 +41,24 @@ function listen() {
   events.addEventListener('connected', () => panel.showConnected());
   events.addEventListener('lost', () => panel.showLost());
   events.addEventListener('status', ({ detail }) => panel.showStatus(detail));
+}
+
+// Figures alone.
+function showFigures() {
+  let unit;
+  events.addEventListener('reset', ({ detail }) => {
+    unit = nameOf(detail.unit);
+    panel.showDownloads(detail.downloads);
+    panel.showCounts({ ...detail, unit });
+    panel.showPending(0, false);
+  });
+  events.addEventListener('change', ({ detail }) => {
+    panel.addLatency(detail.latency_ms);
+    panel.showCounts({ ...detail, unit });
+  });
+}
+
+function showSurface() {
   events.addEventListener('reset', ({ detail }) => {
     view.reset(detail);
     settings.setHeights(view.heights, view.range, view.unit);
@@ -69,7 +99,12 @@ function connectControls() {
   });
 }
 
-applyTheme();
-connectControls();
 listen();
+if (view) {
+  applyTheme();
+  connectControls();
+  showSurface();
+} else {
+  showFigures();
+}
 events.start();

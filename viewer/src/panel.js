@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the page says in words: the state of the connection, counts, and what was clicked.
-import { count, exact, number } from './text.js';
+import { coordinate, count, exact, number } from './text.js';
 
 const kept = 100;  // latencies that the median is of
 
@@ -33,7 +33,7 @@ export class Panel {
   }
 
   // Links to the surface as a file, by extension.
-  showDownloads(extensions) {
+  showDownloads(extensions = ['.glb', '.ply']) {
     const links = extensions.map((extension) => {
       const link = document.createElement('a');
       link.href = `surface${extension}`;
@@ -77,12 +77,12 @@ export class Panel {
 
   showPending(pending, isEmpty) {
     element('loading').textContent = pending > 0 ? `Loading ${count(pending)} slabs …` : '';
-    element('view').setAttribute('aria-busy', String(pending > 0));
+    element('canvas').setAttribute('aria-busy', String(pending > 0));
     element('empty').hidden = !isEmpty;
   }
 
   // `place` in the input's coordinates, `nearest` as nearestPoint() gives it.
-  showPick(slab, place, nearest, unit) {
+  showPick(slab, place, nearest, unit, [low, high]) {
     const rows = [];
     if (nearest) {
       const [x, y] = nearest.slice.contours[nearest.contour][nearest.point];
@@ -91,7 +91,7 @@ export class Panel {
                 ['Contour', `${nearest.contour}${label ? ` (${label})` : ''}`],
                 ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)}`]);
     }
-    rows.push(['Place', place.map(number).join(', ')]);
+    rows.push(['Place', place.map((value) => coordinate(value, high - low)).join(', ')]);
     if (slab.label) rows.push(['Label', slab.label]);
     if (slab.confidence !== undefined)  // not of a mesh
       rows.push(['Slab', slab.id],

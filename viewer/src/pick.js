@@ -29,8 +29,10 @@ export function nearestPoint(slices, [x, y, z], label) {
 export function onClick(canvas, call) {
   let start;
   canvas.addEventListener('pointerdown', (event) => {
-    start = event.button === 0 ? [event.clientX, event.clientY] : undefined;
+    const isAlone = event.isPrimary && event.button === 0;  // no second finger
+    start = isAlone ? [event.clientX, event.clientY] : undefined;
   });
+  canvas.addEventListener('pointercancel', () => { start = undefined; });
   canvas.addEventListener('pointerup', ({ clientX, clientY }) => {
     if (!start || Math.hypot(clientX - start[0], clientY - start[1]) > 4) return;
     const { left, top, width, height } = canvas.getBoundingClientRect();

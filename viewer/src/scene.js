@@ -18,6 +18,7 @@ function showInside(shader) {
 export class Stage {
   #isStale = false;
   #beforeFrame = [];
+  #afterResize = () => {};
 
   constructor(canvas) {
     this.canvas = canvas;
@@ -36,10 +37,13 @@ export class Stage {
     this.controls.dampingFactor = 0.12;
     this.controls.addEventListener('change', () => this.invalidate());
     this.#light();
+    canvas.addEventListener('webglcontextrestored', () => this.invalidate());
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
     this.#resize();
   }
 
+  // after() is called when the canvas has another size.
+  onResize(after) { this.#afterResize = after; }
   // before() is called ahead of each frame.
   onFrame(before) { this.#beforeFrame.push(before); }
 
@@ -107,6 +111,7 @@ export class Stage {
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.camera.aspect = clientWidth / clientHeight;
     this.camera.updateProjectionMatrix();
+    this.#afterResize();
     this.invalidate();
   }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The controls for what is shown: contours, one slice, the cut, colours.
-import { exact, number } from './text.js';
+import { coordinate, exact } from './text.js';
 
 function element(id) {
   return document.getElementById(id);
@@ -11,7 +11,7 @@ export class Settings extends EventTarget {
   #z;
   #isChosen = false;  // else the middle one is shown
   #range;
-  #share = 0.5;  // the cut's height, from the bottom to the top
+  #cutZ;  // once it was moved
   #unit = '';
 
   constructor() {
@@ -38,11 +38,12 @@ export class Settings extends EventTarget {
     this.#tell();
   }
 
-  // Turns a slider on and gives it the focus.
+  // Turns a slider on and gives it the focus; off, if it has it.
   reach(id) {
     if (element(id).disabled) return;
-    element(`${id}-on`).checked = true;
-    element(id).focus();
+    const isThere = element(`${id}-on`).checked && document.activeElement === element(id);
+    element(`${id}-on`).checked = !isThere;
+    if (!isThere) element(id).focus();
     this.#tell();
   }
 
@@ -63,6 +64,7 @@ export class Settings extends EventTarget {
     for (const id of ['cut-on', 'cut', 'cut-below']) element(id).disabled = !this.#range;
     this.#z = this.#isChosen ? this.#nearest(this.#z) : heights[Math.floor(heights.length / 2)];
     slider.value = Math.max(heights.indexOf(this.#z), 0);
+    this.#placeCut();
     this.#show();
   }
 
@@ -88,14 +90,27 @@ export class Settings extends EventTarget {
   }
 
   #moveCut() {
-    this.#share = Number(element('cut').value) / Number(element('cut').max);
+    const [low, high] = this.#range;
+    this.#cutZ = low + (Number(element('cut').value) / Number(element('cut').max)) * (high - low);
     element('cut-on').checked = true;
     this.#tell();
   }
 
+  // Where it stays while the surface grows.
+  #placeCut() {
+    if (!this.#range || this.#range[0] === this.#range[1]) return;
+    const [low, high] = this.#range;
+    const slider = element('cut');
+    slider.value = ((this.#cutHeight() - low) / (high - low)) * Number(slider.max);
+  }
+
   #cutHeight() {
     const [low, high] = this.#range;
-    return low + this.#share * (high - low);
+    return Math.min(Math.max(this.#cutZ ?? (low + high) / 2, low), high);
+  }
+
+  #cutText() {
+    return coordinate(this.#cutHeight(), this.#range[1] - this.#range[0]);
   }
 
   #tell() {
@@ -105,8 +120,9 @@ export class Settings extends EventTarget {
 
   #show() {
     const slice = this.#z === undefined ? '–' : `${exact(this.#z)} ${this.#unit}`;
-    const cut = this.#range ? `${number(this.#cutHeight())} ${this.#unit}` : '–';
+    const cut = this.#range ? `${this.#cutText()} ${this.#unit}` : '–';
     for (const [id, text] of [['slice', slice], ['cut', cut]]) {
+      if (element(`${id}-height`).textContent === text) continue;
       element(`${id}-height`).textContent = text;
       element(id).setAttribute('aria-valuetext', text);
     }

@@ -10,11 +10,15 @@ function meet(a, b) {
   return a.label === b.label && a.low < b.high && b.low < a.high;
 }
 
+function meeting(slabs, slab) {
+  return [...slabs].filter((other) => meet(other, slab));
+}
+
 export class Slabs {
   #live = new Map();      // by id
   #pending = new Set();   // live, not yet here
-  #hidden = new Set();    // live and here, but what they replace is still shown
-  #retired = new Set();   // shown, though they are gone
+  #hidden = new Set();    // live and here, but slabs that they replace (`covers`) are still shown
+  #retired = new Set();   // shown, though they are gone: so many in their place are `awaited`
   #order = 0;
   #show;
   #hide;
@@ -58,8 +62,9 @@ export class Slabs {
     for (const slab of slabs) {
       this.#live.set(slab.id, slab);
       this.#pending.add(slab);
+      for (const old of meeting(this.#retired, slab)) ++old.awaited;
     }
-    this.settle(now);
+    this.#swap();
     return slabs;
   }
 
@@ -70,27 +75,29 @@ export class Slabs {
 
   // The slab has arrived. Not kept where a newer one is in its place already.
   arrive(slab, now) {
-    if (this.#pending.delete(slab)) {
-      this.#hidden.add(slab);
+    if (this.#stopAwaiting(slab)) {
+      this.#hideUntilItsPlaceIsFree(slab);
     } else if ([...this.shown()].some((other) => other.order > slab.order && meet(other, slab))) {
       return;
     } else {
       this.#put(slab);
-      slab.retiredAt = now;
-      this.#retired.add(slab);
+      this.#keepOld(slab, now);
     }
-    this.settle(now);
+    this.#swap();
   }
 
-  // Swaps what can be swapped. To be called now and then while anything is pending.
+  // Gives up waiting for what takes too long. To be called now and then while anything is pending.
   settle(now) {
-    for (const old of this.#retired) {
-      const isWaiting = this.#meetsAny(this.#pending, old);
-      const isTooOld = now - old.retiredAt > patience && this.#isOutdone(old);
-      if (!isWaiting || isTooOld) this.#drop(old);
-    }
+    for (const old of this.#retired)
+      if (now - old.retiredAt > patience && this.#isOutdone(old)) this.#drop(old);
+    this.#swap();
+  }
+
+  // Swaps what can be swapped.
+  #swap() {
+    for (const old of this.#retired) if (old.awaited === 0) this.#drop(old);
     for (const slab of this.#hidden) {
-      if (this.#meetsAny(this.#retired, slab)) continue;
+      if (slab.covers > 0) continue;
       this.#hidden.delete(slab);
       this.#put(slab);
     }
@@ -101,25 +108,39 @@ export class Slabs {
     this.#show(slab);
   }
 
+  #hideUntilItsPlaceIsFree(slab) {
+    slab.covers = meeting(this.#retired, slab).length;
+    this.#hidden.add(slab);
+  }
+
+  // A shown slab that is gone stays as long as others are awaited in its place.
+  #keepOld(slab, now) {
+    slab.retiredAt = now;
+    slab.awaited = meeting(this.#pending, slab).length;
+    this.#retired.add(slab);
+    for (const hidden of meeting(this.#hidden, slab)) ++hidden.covers;
+  }
+
   #drop(slab) {
     this.#retired.delete(slab);
+    for (const hidden of meeting(this.#hidden, slab)) --hidden.covers;
     slab.isShown = false;
     this.#hide(slab);
+  }
+
+  // Whether it was awaited.
+  #stopAwaiting(slab) {
+    if (!this.#pending.delete(slab)) return false;
+    for (const old of meeting(this.#retired, slab)) --old.awaited;
+    return true;
   }
 
   #retire(slab, now) {
     if (!slab) return;
     this.#live.delete(slab.id);
-    this.#pending.delete(slab);
+    this.#stopAwaiting(slab);
     this.#hidden.delete(slab);
-    if (!slab.isShown) return;
-    slab.retiredAt = now;
-    this.#retired.add(slab);
-  }
-
-  #meetsAny(slabs, slab) {
-    for (const other of slabs) if (meet(other, slab)) return true;
-    return false;
+    if (slab.isShown) this.#keepOld(slab, now);
   }
 
   // Whether something newer is there to be shown in its place.

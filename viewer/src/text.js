@@ -11,6 +11,12 @@ export function number(value) {
   return (size !== 0 && size < 1e-4 || size >= 1e9 ? tiny : plain).format(value);
 }
 
+// A place in something of that size: as many digits as tell its parts from one another.
+export function coordinate(value, size) {
+  const digits = 4 - Math.floor(Math.log10(size > 0 ? size : 1));
+  return value.toLocaleString('en', { maximumFractionDigits: Math.min(Math.max(digits, 0), 20) });
+}
+
 export function count(value) {
   return Number.isFinite(value) ? value.toLocaleString('en') : '–';
 }

@@ -16,6 +16,7 @@ import { Surroundings } from './surroundings.js';
 
 const settleEvery = 100;  // ms
 const quiet = 200;        // ms without an edit
+const lossAfter = 2000;   // ms for which an event may be behind
 
 export class View {
   #panel;
@@ -29,6 +30,9 @@ export class View {
   #picked;             // contour and point
   #worn = new Set();   // slabs with normals that are no longer right
   #renewal;            // timer
+  #lose;
+  #picks = 0;          // asked for: only the last one is answered
+  #pickedZ;            // height of the contour point that is marked
   #loader = new Loader();
   #frame;
   #unit = '';
@@ -39,8 +43,10 @@ export class View {
   #settings;
   #legend = document.getElementById('legend');
 
-  constructor(canvas, labels, panel) {
+  // lose() is called when what is shown here is not what the server has.
+  constructor(canvas, labels, panel, lose) {
     this.#panel = panel;
+    this.#lose = lose;
     this.stage = new Stage(canvas);
     this.#batch = new Batch(this.stage.scene, this.stage.material);
     this.#slabs = new Slabs((slab) => this.#show(slab), (slab) => this.#hide(slab));
@@ -51,6 +57,7 @@ export class View {
     this.#picked = new Highlight(this.stage.scene, 4);
     this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
     this.stage.onFrame(() => this.#prepare());
+    this.stage.onResize(() => { if (!this.#wasMoved && this.#frame) this.fit(); });
     setInterval(() => this.#settle(), settleEvery);
   }
 
@@ -74,15 +81,18 @@ export class View {
     if (this.#slots.size === 0 || isOtherUnit) this.#frame = undefined;
     this.#metresPerUnit = state.metres_per_unit;
     this.#contours.reset(state.slices);
+    this.forgetPick();
     this.#lines.clear();
     this.#fetch(this.#slabs.reset(state.slabs, performance.now()));
-    this.#panel.showDownloads(state.downloads ?? ['.glb', '.ply']);
+    this.#panel.showDownloads(state.downloads);
     this.#tell(state);
   }
 
   // What an edit changed. False where that does not go together with what is known here.
   change(edit) {
     if (!edit.removed.every((id) => this.#slabs.has(id))) return false;
+    if (edit.added.some(({ id }) => this.#slabs.has(id))) return false;
+    if ([...edit.slices_removed, ...edit.slices_added].includes(this.#pickedZ)) this.forgetPick();
     for (const z of edit.slices_removed) this.#lines.delete(z);
     for (const z of edit.slices_added) this.#lines.delete(z);
     this.#contours.change(edit.slices_removed, edit.slices_added);
@@ -117,15 +127,18 @@ export class View {
     const slab = hit && [...this.#slots].find(([, slot]) => slot.instance === hit.batchId)?.[0];
     this.forgetPick();
     if (!slab) return undefined;
+    const pick = this.#picks;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
+    if (pick !== this.#picks) return undefined;
     const place = this.#frame.toInput(hit.point);
     const nearest = nearestPoint(slices.filter(Boolean), place, slab.label);
-    this.#panel.showPick(slab, place, nearest, this.unit);
+    this.#panel.showPick(slab, place, nearest, this.unit, this.range);
     this.#mark(nearest);
     return nearest;
   }
 
   forgetPick() {
+    ++this.#picks;
     this.#mark(undefined);
     this.#panel.forgetPick();
   }
@@ -136,13 +149,18 @@ export class View {
         Object.assign(slab, content);
         this.#slabs.arrive(slab, performance.now());
         this.#showPending();
-      });
+      }, () => this.#miss(slab));
   }
 
-  #ask(slab, isWanted, take) {
+  // A slab may be gone before it could be fetched: then an event says so soon, or was lost.
+  #miss(slab) {
+    setTimeout(() => { if (this.#slabs.isPending(slab)) this.#lose(); }, lossAfter);
+  }
+
+  #ask(slab, isWanted, take, miss) {
     this.#loader.fetch(`slabs/${encodeURIComponent(slab.id)}.glb`, isWanted, async (response) => {
       take({ ...parseSlab(await response.arrayBuffer()), id: slab.id });
-    });
+    }, miss);
   }
 
   // The normals of slabs beside an edit are not those they were: they are fetched anew as soon as
@@ -173,6 +191,7 @@ export class View {
 
   #show(slab) {
     if (!slab.positions) return;
+    if (this.#frame?.isFarFrom(slab.translation)) this.#leave();
     if (!this.#frame) this.#begin(slab);
     slab.positions = this.#frame.place(slab.positions, slab.translation);
     const slot = this.#batch.add(slab);
@@ -187,6 +206,15 @@ export class View {
     this.#slots.delete(slab);
     this.#batch.remove(slot);
     this.#refreshLater();
+  }
+
+  // What comes is so far away that both can't be shown: the old is what goes.
+  #leave() {
+    this.forgetPick();
+    for (const slot of this.#slots.values()) this.#batch.remove(slot);
+    this.#slots.clear();
+    this.#frame = undefined;
+    this.#wasMoved = false;
   }
 
   #begin(slab) {
@@ -260,6 +288,7 @@ export class View {
   }
 
   #mark(nearest) {
+    this.#pickedZ = nearest?.slice.z;
     if (!this.#frame) return;
     const points = nearest?.slice.contours[nearest.contour];
     this.#picked.showSlice(points && { z: nearest.slice.z, contours: [points] }, this.#frame);
