@@ -10,8 +10,15 @@ function meet(a, b) {
   return a.label === b.label && a.low < b.high && b.low < a.high;
 }
 
-function meeting(slabs, slab) {
-  return [...slabs].filter((other) => meet(other, slab));
+// Visits those that meet one; returns how many. Without a list: there may be thousands, often.
+function visitMeeting(slabs, slab, visit = () => {}) {
+  let count = 0;
+  for (const other of slabs) {
+    if (!meet(other, slab)) continue;
+    ++count;
+    visit(other);
+  }
+  return count;
 }
 
 export class Slabs {
@@ -62,7 +69,7 @@ export class Slabs {
     for (const slab of slabs) {
       this.#live.set(slab.id, slab);
       this.#pending.add(slab);
-      for (const old of meeting(this.#retired, slab)) ++old.awaited;
+      visitMeeting(this.#retired, slab, (old) => { ++old.awaited; });
     }
     this.#swap();
     return slabs;
@@ -109,21 +116,21 @@ export class Slabs {
   }
 
   #hideUntilItsPlaceIsFree(slab) {
-    slab.covers = meeting(this.#retired, slab).length;
+    slab.covers = visitMeeting(this.#retired, slab);
     this.#hidden.add(slab);
   }
 
   // A shown slab that is gone stays as long as others are awaited in its place.
   #keepOld(slab, now) {
     slab.retiredAt = now;
-    slab.awaited = meeting(this.#pending, slab).length;
+    slab.awaited = visitMeeting(this.#pending, slab);
     this.#retired.add(slab);
-    for (const hidden of meeting(this.#hidden, slab)) ++hidden.covers;
+    visitMeeting(this.#hidden, slab, (hidden) => { ++hidden.covers; });
   }
 
   #drop(slab) {
     this.#retired.delete(slab);
-    for (const hidden of meeting(this.#hidden, slab)) --hidden.covers;
+    visitMeeting(this.#hidden, slab, (hidden) => { --hidden.covers; });
     slab.isShown = false;
     this.#hide(slab);
   }
@@ -131,7 +138,7 @@ export class Slabs {
   // Whether it was awaited.
   #stopAwaiting(slab) {
     if (!this.#pending.delete(slab)) return false;
-    for (const old of meeting(this.#retired, slab)) --old.awaited;
+    visitMeeting(this.#retired, slab, (old) => { --old.awaited; });
     return true;
   }
 
@@ -145,7 +152,8 @@ export class Slabs {
 
   // Whether something newer is there to be shown in its place.
   #isOutdone(old) {
-    const isNewer = (slab) => slab.order > old.order && meet(slab, old);
-    return [...this.#hidden].some(isNewer) || [...this.#retired].some(isNewer);
+    for (const slabs of [this.#hidden, this.#retired])
+      for (const slab of slabs) if (slab.order > old.order && meet(slab, old)) return true;
+    return false;
   }
 }
