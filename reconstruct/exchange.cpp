@@ -43,8 +43,8 @@ class Exchange {
       if (gap.made) stack_.slabs[gap.lower->region->z] = std::move(*gap.made);
     std::ranges::sort(change_.removed);
     std::ranges::sort(change_.resewn);
-    const auto same = std::ranges::unique(change_.resewn);
-    change_.resewn.erase(same.begin(), same.end());
+    change_.resewn.erase(std::unique(change_.resewn.begin(), change_.resewn.end()),
+                         change_.resewn.end());
   }
 
  private:
