@@ -485,8 +485,9 @@ void Sewing::split_edge(HalfEdge h) {
   const Vec3 p = place(h);
   const Vec3 q = place(next(h));
   const auto middle = static_cast<std::uint32_t>(midpoints_.size()) | VertexNumbers::midpoint_mark;
+  // The same from either end: others may be at the same place.
   midpoints_.push_back(
-      {{p[0] + (q[0] - p[0]) / 2, p[1] + (q[1] - p[1]) / 2, p[2] + (q[2] - p[2]) / 2},
+      {{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2},
        {VertexKind::steiner, at(h.layer).layer.slice, Origin::none, Origin::none}});
   const HalfEdge h_half = cut(h, middle);
   const HalfEdge g_half = cut(g, middle);

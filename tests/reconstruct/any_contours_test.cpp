@@ -115,6 +115,15 @@ TEST(AnyContours, MakeASolid) { expect_solids(false, pairs_wanted()); }
 
 TEST(AnyContours, MakeASmoothSolid) { expect_solids(true, pairs_wanted() / 4); }
 
+TEST(AnyContours, MidpointsOfEdgesAtOnePlaceAreTheSame) {
+  const std::vector<Slice> slices{
+      {-20.999863, {{{{28, 16}, {-14, 16}, {6, -1}}, ""}}},
+      {-19,
+       {{{{26, 15}, {-1.8, 15.4}, {-2, 12}}, ""}, {{{14.9, 15.3}, {-12.4, 15.3}, {8, 2}}, ""}}},
+      {-17, {{{{27.6, 15.3}, {-1.9, 15.3}, {-2, 8}}, ""}}}};
+  EXPECT_EQ(solids::faults(reconstruct(slices).surface), "");
+}
+
 TEST(AnyContours, AreLinkedButForOneInAThousand) {
   const std::uint64_t first = first_pair();
   const std::uint64_t wanted = pairs_wanted();
