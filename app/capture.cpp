@@ -30,6 +30,10 @@ std::size_t weight(const Edit& edit) {
   return point_count(edit.slice) + 4 * edit.slice.contours.size();
 }
 
+InputError cannot_be_applied(std::uint64_t edit, const std::string& why) {
+  return InputError("edit " + std::to_string(edit) + " of the session cannot be applied: " + why);
+}
+
 Options single_threaded(Options options) {
   options.threads = 1;
   return options;
@@ -54,14 +58,6 @@ Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
   thread_ = std::thread([this] { run(); });
 }
 
-namespace {
-
-InputError cannot_be_applied(std::uint64_t edit, const std::string& why) {
-  return InputError("edit " + std::to_string(edit) + " of the session cannot be applied: " + why);
-}
-
-}  // namespace
-
 /// Edit by edit, for who wants to see each.
 void Capture::repeat_session() {
   session_->for_each([&](std::uint64_t number, Edit&& edit) {
@@ -69,7 +65,7 @@ void Capture::repeat_session() {
     if (applied.answer.outcome != Answer::Outcome::taken)
       throw cannot_be_applied(number, applied.answer.error);
     applied.change.note_births(++edits_, births_);
-    setup_.observe(applied.answer, *view_now());
+    setup_.observe(applied.change, *view_now());
   });
 }
 
@@ -209,7 +205,7 @@ void Capture::work_off(std::vector<Job> jobs) {
         latencies_.push_back(answer.latency_ms);
         if (latencies_.size() > latency_count) latencies_.pop_front();
         publish(jobs[i].edit, all[i].change, answer.latency_ms);
-        if (setup_.observe) setup_.observe(answer, *view_now());
+        if (setup_.observe) setup_.observe(all[i].change, *view_now());
       }
     } else {
       NetChange undone;
@@ -252,8 +248,8 @@ Capture::Applied Capture::apply(const Edit& edit) {
     applied.answer = {Answer::Outcome::rejected, error.what()};
     return applied;
   }
-  applied.answer.removed = applied.change.removed();
-  applied.answer.added = applied.change.added();
+  applied.answer.removed = slab_names(applied.change.removed());
+  applied.answer.added = slab_names(applied.change.added());
   applied.answer.repairs = applied.change.repairs();
   return applied;
 }
@@ -265,14 +261,13 @@ void Capture::show_undone(const NetChange& change) {
   if (change.is_empty()) return;
   change.note_births(edits_, births_);
   feed_.publish("");
-  if (setup_.observe)
-    setup_.observe({.removed = change.removed(), .added = change.added()}, *view_now());
+  if (setup_.observe) setup_.observe(change, *view_now());
 }
 
 void Capture::publish(const Edit& edit, const NetChange& change, double latency_ms) {
   const Json z = Json::array({edit.slice.z});
   const bool is_removal = edit.kind == Edit::Kind::remove;
-  const Json event{{"removed", change.removed()},
+  const Json event{{"removed", slab_names(change.removed())},
                    {"added", change.added_as_json(edits_)},
                    {"slices_removed", is_removal ? z : Json::array()},
                    {"slices_added", is_removal ? Json::array() : z},

@@ -66,8 +66,9 @@ class Capture {
     double metres_per_unit = 0.001;
     std::size_t most_waiting = 256;             ///< edits
     std::size_t most_points_waiting = 4 << 20;  ///< points in them
-    /// Called after each edit that was taken, in the capture's thread, in their order.
-    std::function<void(const Answer&, const CaptureView&)> observe = {};
+    /// Called after each edit that has changed slabs or was taken, in the capture's thread, in
+    /// their order.
+    std::function<void(const NetChange&, const CaptureView&)> observe = {};
   };
   enum class Submission { taken, full, closed };
   using Done = std::function<void(const Answer&)>;

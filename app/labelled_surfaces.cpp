@@ -21,9 +21,10 @@ SurfaceChange put_into(Reconstruction& surface, const LabelledSurfaces::Exchange
                                     : surface.replace(exchange.z, exchange.after);
 }
 
-void check(const Slice& slice, std::size_t index) {
-  if (slice.contours.size() > most_contours)
-    throw InputError("the slice has " + std::to_string(slice.contours.size()) +
+/// `slice` as it came; `all`: with what is at its height already.
+void check(const Slice& slice, const Slice& all, std::size_t index) {
+  if (all.contours.size() > most_contours)
+    throw InputError("the slice has " + std::to_string(all.contours.size()) +
                      " contours; at most " + std::to_string(most_contours) +
                      " fit into a live surface");
   if (auto unusable = find_unusable(slice, static_cast<std::uint32_t>(index)); !unusable.empty())
@@ -37,7 +38,7 @@ LabelledSurfaces::Exchange LabelledSurfaces::apply(const io::Edit& edit, NetChan
   if (const auto problem = stack_.problem(edit)) throw InputError(*problem + "; insert it first");
   Exchange exchange{z, stack_.find(z), stack_.after(edit)};
   if (exchange.after != nullptr) {
-    check(*exchange.after, stack_.slices().size());
+    check(edit.slice, *exchange.after, stack_.slices().size());
     add_labels(edit.slice, change);
   }
   put(exchange, change);
@@ -48,7 +49,7 @@ LabelledSurfaces::Exchange LabelledSurfaces::apply(const io::Edit& edit, NetChan
 }
 
 void LabelledSurfaces::take_back(const Exchange& exchange, NetChange& change) {
-  put({exchange.z, exchange.after, exchange.before}, change);
+  put(exchange.reversed(), change);
 }
 
 void LabelledSurfaces::put(const Exchange& exchange, NetChange& change) {
@@ -56,9 +57,8 @@ void LabelledSurfaces::put(const Exchange& exchange, NetChange& change) {
     try {
       change.add(i, parts_[i].label, put_into(*parts_[i].surface, exchange));
     } catch (...) {
-      const Exchange back{exchange.z, exchange.after, exchange.before};
       for (std::size_t k = 0; k < i; ++k)
-        change.add(k, parts_[k].label, put_into(*parts_[k].surface, back));
+        change.add(k, parts_[k].label, put_into(*parts_[k].surface, exchange.reversed()));
       throw;
     }
   }

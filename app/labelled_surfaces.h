@@ -29,6 +29,8 @@ class LabelledSurfaces {
     double z = 0;
     io::StackState::SharedSlice before;
     io::StackState::SharedSlice after;
+
+    [[nodiscard]] Exchange reversed() const { return {z, after, before}; }
   };
 
   /// Options::label is ignored.

@@ -7,6 +7,12 @@ std::string slab_name(const SlabKey& slab) {
   return std::to_string(slab.first) + '-' + std::to_string(slab.second);
 }
 
+std::vector<std::string> slab_names(const std::vector<SlabKey>& slabs) {
+  std::vector<std::string> names;
+  for (const SlabKey& slab : slabs) names.push_back(slab_name(slab));
+  return names;
+}
+
 Json to_json(const SlabKey& key, const std::string& label, const SlabInfo& slab,
              std::uint64_t edit) {
   return {{"id", slab_name(key)},
@@ -32,16 +38,10 @@ void NetChange::remove(const SlabKey& slab) {
   if (added_.erase(slab) == 0) removed_.push_back(slab);
 }
 
-std::vector<std::string> NetChange::removed() const {
-  std::vector<std::string> names;
-  for (const SlabKey& slab : removed_) names.push_back(slab_name(slab));
-  return names;
-}
-
-std::vector<std::string> NetChange::added() const {
-  std::vector<std::string> names;
-  for (const auto& [key, slab] : added_) names.push_back(slab_name(key));
-  return names;
+std::vector<SlabKey> NetChange::added() const {
+  std::vector<SlabKey> slabs;
+  for (const auto& [key, slab] : added_) slabs.push_back(key);
+  return slabs;
 }
 
 Json NetChange::added_as_json(std::uint64_t edit) const {

@@ -18,6 +18,7 @@ using SlabKey = std::pair<std::size_t, std::uint32_t>;
 
 /// A slab as viewers know it.
 [[nodiscard]] std::string slab_name(const SlabKey& slab);
+[[nodiscard]] std::vector<std::string> slab_names(const std::vector<SlabKey>& slabs);
 
 /// What viewers are told of a slab; `edit`: that made it.
 [[nodiscard]] Json to_json(const SlabKey& key, const std::string& label, const SlabInfo& slab,
@@ -34,8 +35,8 @@ class NetChange {
   void note(std::string repair) { repairs_.push_back(std::move(repair)); }
 
   [[nodiscard]] bool is_empty() const { return removed_.empty() && added_.empty(); }
-  [[nodiscard]] std::vector<std::string> removed() const;
-  [[nodiscard]] std::vector<std::string> added() const;
+  [[nodiscard]] const std::vector<SlabKey>& removed() const { return removed_; }
+  [[nodiscard]] std::vector<SlabKey> added() const;
   [[nodiscard]] const std::vector<std::string>& repairs() const { return repairs_; }
   /// With `edit` as the edit that made them.
   [[nodiscard]] Json added_as_json(std::uint64_t edit) const;

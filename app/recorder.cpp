@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/recorder.h"
 
-#include <cstdint>
 #include <set>
-#include <string>
 #include <utility>
 
 #include "io/atomic_file.h"
@@ -15,14 +13,11 @@ namespace {
 using Place = std::pair<std::size_t, std::size_t>;  // part, slab
 
 /// The slabs that came and those beside them, whose normals they smooth.
-std::set<Place> looking_different(const Answer& answer, const CaptureView& view) {
+std::set<Place> looking_different(const NetChange& change, const CaptureView& view) {
   std::set<Place> places;
-  for (const std::string& slab : answer.added) {
-    const std::size_t dash = slab.find('-');
-    const std::size_t part = std::stoul(slab.substr(0, dash));
+  for (const auto& [part, id] : change.added()) {
     const Snapshot& snapshot = view.parts[part].snapshot;
-    const std::size_t i =
-        snapshot.find(static_cast<std::uint32_t>(std::stoul(slab.substr(dash + 1))));
+    const std::size_t i = snapshot.find(id);
     if (i > 0) places.emplace(part, i - 1);
     places.emplace(part, i);
     if (i + 1 < snapshot.slab_count()) places.emplace(part, i + 1);
@@ -32,19 +27,19 @@ std::set<Place> looking_different(const Answer& answer, const CaptureView& view)
 
 }  // namespace
 
-void Recorder::add(const Answer& answer, const CaptureView& view) {
+void Recorder::add(const NetChange& change, const CaptureView& view) {
   if (failure_) return;
   try {
-    add_picture(answer, view);
+    add_picture(change, view);
   } catch (const std::exception&) {
     failure_ = std::current_exception();
   }
 }
 
-void Recorder::add_picture(const Answer& answer, const CaptureView& view) {
+void Recorder::add_picture(const NetChange& change, const CaptureView& view) {
   const double time = static_cast<double>(count_++) / rate_;
-  for (const std::string& slab : answer.removed) replay_.remove(time, slab);
-  for (const auto& [part, i] : looking_different(answer, view)) {
+  for (const SlabKey& slab : change.removed()) replay_.remove(time, slab_name(slab));
+  for (const auto& [part, i] : looking_different(change, view)) {
     const auto& [label, snapshot] = view.parts[part];
     replay_.add(time, slab_name({part, snapshot.slab(i).id}), snapshot, i, label, part);
   }

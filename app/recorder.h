@@ -17,12 +17,12 @@ class Recorder {
   Recorder(double metres_per_unit, double rate) : replay_(metres_per_unit), rate_(rate) {}
 
   /// The next picture: what an edit has changed. Never throws.
-  void add(const Answer& answer, const CaptureView& view);
+  void add(const NetChange& change, const CaptureView& view);
   /// The replay as GLB. Throws what has stopped it, and as io::AtomicFile.
   void write(const std::filesystem::path& file) const;
 
  private:
-  void add_picture(const Answer& answer, const CaptureView& view);
+  void add_picture(const NetChange& change, const CaptureView& view);
 
   io::Replay replay_;
   double rate_;

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "app/report.h"
+#include "app/unit.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::app {
@@ -42,6 +43,14 @@ void set(StreamCommand& command, const std::string& key, const std::string& valu
 }
 
 }  // namespace
+
+Capture::Setup setup_of(const StreamCommand& command) {
+  Capture::Setup setup;
+  setup.options = command.options;
+  setup.unit = command.unit;
+  setup.metres_per_unit = metres_per_unit(command.unit).value_or(0.001);
+  return setup;
+}
 
 std::map<std::string, std::string> settings_of(const StreamCommand& command) {
   std::map<std::string, std::string> settings{{"fill", name(command.options.fill)},

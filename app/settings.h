@@ -4,9 +4,13 @@
 #include <map>
 #include <string>
 
+#include "app/capture.h"
 #include "app/commands.h"
 
 namespace loft::app {
+
+/// The capture that a command asks for.
+[[nodiscard]] Capture::Setup setup_of(const StreamCommand& command);
 
 /// What a session has to remember so that resuming it makes the same surface.
 [[nodiscard]] std::map<std::string, std::string> settings_of(const StreamCommand& command);

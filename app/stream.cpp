@@ -66,14 +66,6 @@ std::optional<io::Session> open_session(StreamCommand& command) {
   return session;
 }
 
-Capture::Setup setup_of(const StreamCommand& command) {
-  Capture::Setup setup;
-  setup.options = command.options;
-  setup.unit = command.unit;
-  setup.metres_per_unit = metres_per_unit(command.unit).value_or(0.001);
-  return setup;
-}
-
 /// Actions of which one may fail and the others are done all the same.
 class Attempts {
  public:
@@ -134,8 +126,8 @@ class Stream {
   [[nodiscard]] Capture::Setup setup() {
     Capture::Setup setup = setup_of(command_);
     if (command_.replay)
-      setup.observe = [this](const Answer& answer, const CaptureView& view) {
-        recorder_.add(answer, view);
+      setup.observe = [this](const NetChange& change, const CaptureView& view) {
+        recorder_.add(change, view);
       };
     return setup;
   }

@@ -12,7 +12,6 @@
 #include "app/shown_capture.h"
 #include "app/shown_mesh.h"
 #include "app/terminal.h"
-#include "app/unit.h"
 #include "io/meshes.h"
 #include "io/session.h"
 
@@ -35,11 +34,7 @@ class SessionView {
     if (command.unit != begun.unit) begun.given.insert("unit");
     begun.unit = command.unit;
     take_over(io::Session(command.file, io::Session::Access::read).settings(), begun);
-    Capture::Setup setup;
-    setup.options = begun.options;
-    setup.unit = begun.unit;
-    setup.metres_per_unit = metres_per_unit(begun.unit).value_or(0.001);
-    return setup;
+    return app::setup_of(begun);
   }
 
   Feed feed_;

@@ -69,7 +69,7 @@ class Exchange {
 
   void list_units(Gap& gap) {
     LiveSlab* const there = gap.there;
-    LiveSlab& slab = gap.made ? *gap.made : *there;
+    LiveSlab& slab = gap.slab();
     if (gap.made && there != nullptr) {
       change_.removed.push_back(there->frozen->info.id);
       rims_.insert(rims_.end(), {&gap.lower->rim, &gap.upper->rim});
@@ -100,7 +100,7 @@ class Exchange {
   }
 
   [[nodiscard]] static const FrozenSlab& frozen(const Unit& unit) {
-    return *(unit.gap->made ? *unit.gap->made : *unit.gap->there).frozen;
+    return *unit.gap->slab().frozen;
   }
 
   [[nodiscard]] static Layer layer(const Unit& unit) {
@@ -174,7 +174,7 @@ class Exchange {
           change_.resewn.push_back(gap.there->frozen->info.id);
         if (units_[i].gap->before == nullptr || !units_[i].is_new) faces.clear();
         faces.insert(faces.end(), spliced.faces[i - first].begin(), spliced.faces[i - first].end());
-        (gap.made ? *gap.made : *gap.there).is_sewn_as_tiled = spliced.is_sewn_as_tiled;
+        gap.slab().is_sewn_as_tiled = spliced.is_sewn_as_tiled;
         units_[i].is_new = false;
       }
       add(spliced);

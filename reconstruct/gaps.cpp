@@ -107,7 +107,7 @@ bool Gaps::has_neighbours(std::size_t i) const {
 
 SlabPieces Gaps::view(std::size_t i) const {
   if (i >= gaps_.size()) return {};
-  return {gaps_[i].found().get(), gaps_[i].height()};
+  return {gaps_[i].slab().found.get(), gaps_[i].height()};
 }
 
 void Gaps::link(std::size_t i) {

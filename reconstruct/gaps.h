@@ -32,9 +32,9 @@ struct Gap {
   std::optional<Pieces> pieces{};
   bool keeps_tiles = false;  ///< only its caps change
 
-  [[nodiscard]] const std::shared_ptr<const Pieces>& found() const {
-    return made ? made->found : there->found;
-  }
+  /// As it is to be.
+  [[nodiscard]] LiveSlab& slab() { return made ? *made : *there; }
+  [[nodiscard]] const LiveSlab& slab() const { return made ? *made : *there; }
   [[nodiscard]] double height() const { return upper->region->z - lower->region->z; }
 };
 

@@ -67,7 +67,7 @@ class StackEdit {
   void check_room(Gaps& gaps) const {
     std::size_t faces = 0;
     for (const Gap& gap : gaps.all()) {
-      const FrozenSlab& slab = *(gap.made ? *gap.made : *gap.there).frozen;
+      const FrozenSlab& slab = *gap.slab().frozen;
       faces += slab.tiles->tiles.size() + slab.lower->points.size() + slab.upper->points.size();
     }
     if (!stack_.surface.has_room_for(faces))
