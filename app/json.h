@@ -6,7 +6,8 @@
 #include <span>
 #include <string>
 
-#include "reconstruct/measure.h"
+#include "io/version.h"
+#include "mesh/measure.h"
 
 namespace loft::app {
 
@@ -22,6 +23,19 @@ inline std::string print(const Json& json) {
 inline Json names(std::span<const std::filesystem::path> paths) {
   Json json = Json::array();
   for (const auto& path : paths) json.push_back(path.string());
+  return json;
+}
+
+/// How the report of a command begins that makes files out of files: schema, schema_version, loft
+/// (version), inputs, outputs.
+inline Json begin_report(const char* schema, std::span<const std::filesystem::path> inputs,
+                         std::span<const std::filesystem::path> outputs) {
+  Json json;
+  json["schema"] = schema;
+  json["schema_version"] = 1;
+  json["loft"] = io::version();
+  json["inputs"] = names(inputs);
+  json["outputs"] = names(outputs);
   return json;
 }
 

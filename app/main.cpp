@@ -8,13 +8,13 @@
 #include <new>
 #include <string>
 
-#include "app/commands.h"
+#include "app/commands/commands.h"
+#include "app/commands/out_of_core.h"
 #include "app/descriptors.h"
-#include "app/out_of_core.h"
 #include "app/terminal.h"
 #include "app/unit.h"
 #include "cdt/triangulation.h"
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
 #include "io/slices.h"

@@ -3,7 +3,7 @@
 
 #include <system_error>
 
-#include "app/commands.h"
+#include "app/exit_code.h"
 
 namespace loft::app {
 

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <utility>
 
-#include "io/file.h"
-#include "io/gltf.h"
-#include "io/obj.h"
-#include "io/off.h"
-#include "io/ply.h"
-#include "io/stl.h"
+#include "io/bytes/file.h"
+#include "io/gltf/gltf.h"
+#include "io/meshes/obj.h"
+#include "io/meshes/off.h"
+#include "io/meshes/ply.h"
+#include "io/meshes/stl.h"
 
 namespace loft::io {
 

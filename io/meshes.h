@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/labelled_mesh.h"
+#include "io/meshes/labelled_mesh.h"
 
 namespace loft::io {
 

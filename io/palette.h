@@ -5,9 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
-#include <vector>
-
-#include "io/planar_mesh.h"
 
 namespace loft::io {
 
@@ -33,17 +30,5 @@ constexpr std::size_t hue_count = 8;
 constexpr Colour outside_tone{0xe8, 0xf0, 0xf5};  ///< of what nothing encloses
 constexpr Colour shared_tone{0x3a, 0x43, 0x50};   ///< of edges with several constraints
 constexpr Colour edge_tone{0x6b, 0x7a, 0x8c};     ///< of edges without constraint
-
-/// A hue for every region and every constraint of a mesh. Regions with the same key share one;
-/// neighbouring regions with different keys differ, as far as the hues reach. A constraint has that
-/// of the region that it alone encloses. Cost: O(n log n).
-struct Hues {
-  std::vector<std::uint8_t> of_region;
-  std::vector<std::uint8_t> of_constraint;
-};
-[[nodiscard]] Hues choose_hues(const PlanarMesh& mesh);
-
-/// What a region is filled with.
-[[nodiscard]] Colour fill_of(const PlanarMesh::Region& region, std::size_t hue);
 
 }  // namespace loft::io

@@ -7,10 +7,10 @@
 #include <iterator>
 #include <string_view>
 
-#include "io/file.h"
-#include "io/polylines_geojson.h"
-#include "io/polylines_text.h"
-#include "io/text.h"
+#include "io/bytes/file.h"
+#include "io/bytes/text.h"
+#include "io/planar/polylines_geojson.h"
+#include "io/planar/polylines_text.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {

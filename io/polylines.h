@@ -6,19 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cdt/point.h"
-#include "cdt/triangulation.h"
+#include "io/planar/polyline.h"
 
 namespace loft::io {
-
-/// Points joined in their order: what becomes a constraint of a triangulation.
-struct Polyline {
-  std::vector<cdt::Point> points;  ///< one at least; closed ones do not repeat the first
-  cdt::Ends ends = cdt::open;
-  std::string name = {};  ///< may be shared: the rings of one country; empty where there is none
-
-  friend bool operator==(const Polyline&, const Polyline&) = default;
-};
 
 /// The polylines of a file, in its order, just as they are written there. The extension chooses the
 /// reader; `-` is standard input, GeoJSON if it begins with `{`, else text. All coordinates are

@@ -7,8 +7,8 @@
 #include <iostream>
 #include <iterator>
 
-#include "io/file.h"
-#include "io/slices_json.h"
+#include "io/bytes/file.h"
+#include "io/stacks/slices_json.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {

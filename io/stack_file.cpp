@@ -5,10 +5,10 @@
 #include <string>
 #include <system_error>
 
-#include "io/file.h"
-#include "io/slice_line.h"
+#include "io/bytes/file.h"
+#include "io/bytes/text.h"
 #include "io/slices.h"
-#include "io/text.h"
+#include "io/stacks/slice_line.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "io/slice_lines.h"
+#include "io/stacks/slice_lines.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/slice.h"
 

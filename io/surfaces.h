@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "io/part.h"
+#include "io/meshes/part.h"
 
 namespace loft::io {
 

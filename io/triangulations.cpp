@@ -6,10 +6,10 @@
 #include <ostream>
 #include <string_view>
 
-#include "io/atomic_file.h"
-#include "io/file.h"
-#include "io/planar_json.h"
-#include "io/planar_ply.h"
+#include "io/bytes/atomic_file.h"
+#include "io/bytes/file.h"
+#include "io/planar/planar_json.h"
+#include "io/planar/planar_ply.h"
 
 namespace loft::io {
 

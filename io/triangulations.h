@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <string>
 
-#include "io/planar_mesh.h"
-#include "io/svg.h"
+#include "io/planar/planar_mesh.h"
+#include "io/planar/svg.h"
 
 namespace loft::io {
 

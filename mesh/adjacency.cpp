@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/adjacency.h"
+#include "mesh/adjacency.h"
 
 #include <algorithm>
 #include <numeric>

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft {
 

@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft {
 

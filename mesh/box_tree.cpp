@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/box_tree.h"
+#include "mesh/box_tree.h"
 
 #include <algorithm>
 

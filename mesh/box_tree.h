@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/box3.h"
+#include "mesh/box3.h"
 
 namespace loft {
 

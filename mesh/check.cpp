@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/check.h"
+#include "mesh/check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 #include <span>
 #include <utility>
 
-#include "reconstruct/adjacency.h"
-#include "reconstruct/box_tree.h"
-#include "reconstruct/nesting.h"
-#include "reconstruct/predicates.h"
+#include "mesh/adjacency.h"
+#include "mesh/box_tree.h"
+#include "mesh/nesting.h"
+#include "mesh/predicates.h"
 
 namespace loft {
 
@@ -234,8 +234,6 @@ std::vector<Finding> check(const Mesh& mesh) {
   for (const auto& [f, g] : meeting) findings.push_back({Fault::self_intersection, {f, g}, {}});
   return findings;
 }
-
-std::vector<Finding> check(const Surface& surface) { return check(to_mesh(surface)); }
 
 Contacts contacts(const Mesh& mesh) {
   const Edges edges(mesh, proper_faces(mesh));

@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reconstruct/mesh.h"
-#include "reconstruct/surface.h"
+#include "mesh/mesh.h"
 
 namespace loft {
 
@@ -42,7 +41,6 @@ struct Finding {
 /// vertex twice, of topology as well. Findings come in the order of Fault, then of the elements.
 /// Cost: O(n log n) in practice.
 [[nodiscard]] std::vector<Finding> check(const Mesh& mesh);
-[[nodiscard]] std::vector<Finding> check(const Surface& surface);
 
 /// Where a surface touches itself in corners and edges that its parts have each for themselves:
 /// as a solid may that was made from contours with corner contacts. No fault.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/face_tree.h"
+#include "mesh/face_tree.h"
 
 #include <algorithm>
 #include <bit>

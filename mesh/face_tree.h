@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/box_tree.h"
+#include "mesh/box_tree.h"
 
 namespace loft {
 

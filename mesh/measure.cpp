@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/measure.h"
+#include "mesh/measure.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/adjacency.h"
-#include "reconstruct/triangle_shape.h"
-#include "reconstruct/vec3.h"
+#include "mesh/adjacency.h"
+#include "mesh/triangle_shape.h"
+#include "mesh/vec3.h"
 
 namespace loft {
 
@@ -36,18 +36,6 @@ std::size_t count_components(const Mesh& mesh, std::span<const std::uint32_t> fa
   return static_cast<std::size_t>(std::ranges::count_if(faces, is_first));
 }
 
-std::size_t count_components(const Surface& surface) {
-  DisjointSets sets(surface.n_faces());
-  for (const auto edge : surface.edges()) {
-    const auto h = surface.halfedge_handle(edge, 0);
-    const auto g = surface.halfedge_handle(edge, 1);
-    if (surface.is_boundary(h) || surface.is_boundary(g)) continue;
-    sets.unite(static_cast<std::uint32_t>(surface.face_handle(h).idx()),
-               static_cast<std::uint32_t>(surface.face_handle(g).idx()));
-  }
-  return sets.count();
-}
-
 /// The holes of an open surface: chains of edges with one face.
 std::size_t count_rims(const Mesh& mesh, const Edges& edges) {
   DisjointSets joined(mesh.points.size());
@@ -60,21 +48,6 @@ std::size_t count_rims(const Mesh& mesh, const Edges& edges) {
   for (std::uint32_t& end : ends) end = joined.find(end);
   std::ranges::sort(ends);
   return static_cast<std::size_t>(std::unique(ends.begin(), ends.end()) - ends.begin());
-}
-
-std::size_t count_rims(const Surface& surface) {
-  std::vector<bool> is_done(surface.n_halfedges());
-  std::size_t count = 0;
-  for (const auto first : surface.halfedges()) {
-    if (!surface.is_boundary(first) || is_done[static_cast<std::size_t>(first.idx())]) continue;
-    ++count;
-    auto h = static_cast<Surface::HalfedgeHandle>(first);
-    do {
-      is_done[static_cast<std::size_t>(h.idx())] = true;
-      h = surface.next_halfedge_handle(h);
-    } while (h != first);
-  }
-  return count;
 }
 
 }  // namespace
@@ -135,28 +108,6 @@ Measures measure(const Mesh& mesh) {
   for (const std::uint32_t face : faces) {
     const auto [a, b, c] = mesh.faces[face];
     sum.add({mesh.points[a], mesh.points[b], mesh.points[c]});
-  }
-  sum.put_into(result);
-  return result;
-}
-
-Measures measure(const Surface& surface) {
-  Measures result;
-  result.vertices = surface.n_vertices();
-  result.edges = surface.n_edges();
-  result.faces = surface.n_faces();
-  result.components = count_components(surface);
-  result.genus = genus(result, count_rims(surface));
-  FaceSum sum;
-  for (const auto face : surface.faces()) {
-    Corners corners;
-    auto h = surface.halfedge_handle(face);
-    for (Vec3& corner : corners) {
-      const auto& p = surface.point(surface.to_vertex_handle(h));
-      corner = {p[0], p[1], p[2]};
-      h = surface.next_halfedge_handle(h);
-    }
-    sum.add(corners);
   }
   sum.put_into(result);
   return result;

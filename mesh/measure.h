@@ -5,9 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "reconstruct/mesh.h"
-#include "reconstruct/predicates.h"
-#include "reconstruct/surface.h"
+#include "mesh/mesh.h"
+#include "mesh/predicates.h"
 
 namespace loft {
 
@@ -72,8 +71,5 @@ class FaceSum {
 
 /// Cost: O(n log n).
 [[nodiscard]] Measures measure(const Mesh& mesh);
-/// The same, from the surface's own connectivity. Precondition: no deleted elements.
-/// Cost: O(n).
-[[nodiscard]] Measures measure(const Surface& surface);
 
 }  // namespace loft

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/nesting.h"
+#include "mesh/nesting.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "cdt/expansion.h"
-#include "reconstruct/predicates.h"
+#include "mesh/predicates.h"
 
 namespace loft {
 

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/box_tree.h"
-#include "reconstruct/mesh.h"
+#include "mesh/box_tree.h"
+#include "mesh/mesh.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/predicates.h"
+#include "mesh/predicates.h"
 
 #include <algorithm>
 #include <cmath>

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "cdt/predicates.h"
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/triangle_shape.h"
+#include "mesh/triangle_shape.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "reconstruct/vec3.h"
+#include "mesh/vec3.h"
 
 namespace loft {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "reconstruct/predicates.h"
+#include "mesh/predicates.h"
 
 namespace loft {
 

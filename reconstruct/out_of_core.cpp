@@ -8,16 +8,16 @@
 #include <stdexcept>
 #include <utility>
 
-#include "reconstruct/caps.h"
-#include "reconstruct/heights.h"
-#include "reconstruct/linking.h"
+#include "reconstruct/clean/heights.h"
+#include "reconstruct/link/linking.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/reconstruct.h"
-#include "reconstruct/refine.h"
-#include "reconstruct/sewing.h"
-#include "reconstruct/smooth.h"
-#include "reconstruct/survey.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/sew/caps.h"
+#include "reconstruct/sew/sewing.h"
+#include "reconstruct/sew/survey.h"
+#include "reconstruct/shape/refine.h"
+#include "reconstruct/shape/smooth.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -9,13 +9,14 @@
 #include <string>
 #include <vector>
 
+#include "mesh/measure.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/link_report.h"
-#include "reconstruct/measure.h"
+#include "reconstruct/link/link_report.h"
 #include "reconstruct/options.h"
 #include "reconstruct/progress.h"
+#include "reconstruct/sew/surface_sink.h"
 #include "reconstruct/slice.h"
-#include "reconstruct/surface_sink.h"
+#include "reconstruct/usable.h"
 
 namespace loft {
 
@@ -37,11 +38,6 @@ struct OutOfCoreReport {
   Measures measures;
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
 };
-
-/// What is wrong with the numbers of a slice (DefectKind::not_finite), of its contours with one
-/// label or of all; `index` is its number in the stack.
-[[nodiscard]] std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
-                                                const std::optional<std::string>& label = {});
 
 /// Makes the surface of a stack larger than memory slab by slab, from the lowest slice upwards, and
 /// passes it on piece by piece: the vertices and faces of reconstruct(), in the same order.

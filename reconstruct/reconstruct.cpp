@@ -7,16 +7,16 @@
 #include <set>
 #include <string>
 
-#include "reconstruct/heights.h"
-#include "reconstruct/linking.h"
+#include "reconstruct/clean/heights.h"
+#include "reconstruct/clean/region.h"
+#include "reconstruct/link/linking.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/parallel.h"
-#include "reconstruct/refine.h"
-#include "reconstruct/region.h"
-#include "reconstruct/sew.h"
-#include "reconstruct/simplify.h"
-#include "reconstruct/smooth.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/sew/sew.h"
+#include "reconstruct/shape/refine.h"
+#include "reconstruct/shape/simplify.h"
+#include "reconstruct/shape/smooth.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "reconstruct/defect.h"
-#include "reconstruct/link_report.h"
+#include "reconstruct/link/link_report.h"
 #include "reconstruct/options.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"

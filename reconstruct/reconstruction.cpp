@@ -7,11 +7,11 @@
 #include <string>
 #include <utility>
 
-#include "reconstruct/heights.h"
-#include "reconstruct/live_stack.h"
+#include "reconstruct/clean/heights.h"
+#include "reconstruct/live/live_stack.h"
+#include "reconstruct/live/stack_edit.h"
 #include "reconstruct/number_text.h"
-#include "reconstruct/out_of_core.h"
-#include "reconstruct/stack_edit.h"
+#include "reconstruct/usable.h"
 
 namespace loft {
 

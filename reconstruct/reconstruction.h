@@ -8,11 +8,11 @@
 
 #include "cdt/point.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/live/snapshot.h"
+#include "reconstruct/live/surface_change.h"
 #include "reconstruct/options.h"
 #include "reconstruct/slice.h"
-#include "reconstruct/snapshot.h"
 #include "reconstruct/surface.h"
-#include "reconstruct/surface_change.h"
 
 namespace loft {
 

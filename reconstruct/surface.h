@@ -3,8 +3,11 @@
 
 #include <OpenMesh/Core/Mesh/TriMesh_ArrayKernelT.hh>
 #include <cstdint>
+#include <vector>
 
-#include "reconstruct/mesh.h"
+#include "mesh/check.h"
+#include "mesh/measure.h"
+#include "mesh/mesh.h"
 #include "reconstruct/origin.h"
 
 namespace loft {
@@ -31,5 +34,12 @@ using Surface = OpenMesh::TriMesh_ArrayKernelT<SurfaceTraits>;
 /// The surface as plain points and faces, in the order of its vertices and faces.
 /// Precondition: no deleted elements (else call garbage_collection() first).
 [[nodiscard]] Mesh to_mesh(const Surface& surface);
+
+/// All faults of the surface, see check(const Mesh&). Precondition: no deleted elements.
+[[nodiscard]] std::vector<Finding> check(const Surface& surface);
+
+/// Its size and shape, from its own connectivity. Precondition: no deleted elements.
+/// Cost: O(n).
+[[nodiscard]] Measures measure(const Surface& surface);
 
 }  // namespace loft

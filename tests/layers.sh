@@ -1,11 +1,46 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Checks that the layers include each other in one direction only, app -> io -> reconstruct -> cdt,
-# and that the lower ones keep away from the world outside.
+# Checks that layers, and the wings inside them, include each other in one direction only, and that
+# the lower ones keep away from the world outside.
 #   sh tests/layers.sh [ROOT]
-# Prints every #include line that should not be there; exit code 1 if there is one.
+# Prints every #include line that should not be there, and every file that is in no wing; exit code 1
+# if there is one.
 set -u
 cd "${1:-$(dirname "$0")/..}" || exit 2
+
+# One line a wing: its name, where its files are, and the wings that it may include, beside itself.
+# A wing named here stands for all that it may include, too. Files in the top folder of a layer are
+# listed by name: its values, which its wings know, and its face, which knows its wings.
+wings='
+cdt           cdt/*
+mesh          mesh/*                         cdt
+
+values        reconstruct/{defect,number_text,options,origin,parallel,progress,slice,surface,usable}  mesh
+moved         reconstruct/{check,measure,mesh}                                    values
+plane         reconstruct/plane/*            values
+clean         reconstruct/clean/*            plane
+tile          reconstruct/tile/*             clean
+link          reconstruct/link/*             tile
+sew           reconstruct/sew/*              tile
+shape         reconstruct/shape/*            link sew
+live          reconstruct/live/*             shape
+reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction}                live
+
+io-values     io/{palette,version}           reconstruct
+bytes         io/bytes/*                     io-values
+stacks        io/stacks/*                    bytes
+meshes        io/meshes/*                    bytes
+gltf          io/gltf/*                      meshes
+planar        io/planar/*                    bytes
+session       io/session/*                   stacks
+io            io/{meshes,polylines,slices,stack_file,surfaces,triangulations}     gltf planar session
+
+words         app/{descriptors,exit_code,interrupt,json,memory,overwriting,place,report,stopwatch,terminal,unit}  io
+capture       app/capture/*                  words
+server        app/server/*                   capture
+commands      app/commands/*                 server
+app           app/main                       commands
+'
 
 # All #include lines of a folder, as file:line:#include "header", without blanks.
 includes() {
@@ -18,23 +53,72 @@ forbid() {
   includes "$1" | grep -E "#include[\"<](loft/)?($2)"
 }
 
+# The arrows of the table: reads names of files, then #include lines.
+arrows() {
+  awk -F '"' -v table="$wings" '
+    function wing_of(file,    folder) {
+      sub(/\.(h|cpp)$/, "", file)
+      if (file in wing) return wing[file]
+      folder = file
+      sub(/[^\/]*$/, "*", folder)
+      return (folder in wing) ? wing[folder] : ""
+    }
+    function place(pattern, name,    folder, names, count, i) {
+      folder = pattern
+      sub(/{.*/, "", folder)
+      if (folder == pattern) { wing[pattern] = name; return }
+      sub(/.*{/, "", pattern)
+      sub(/}.*/, "", pattern)
+      count = split(pattern, names, ",")
+      for (i = 1; i <= count; ++i) wing[folder names[i]] = name
+    }
+    BEGIN {
+      count = split(table, lines, "\n")
+      for (i = 1; i <= count; ++i) {
+        fields = split(lines[i], field, /[ ]+/)
+        if (fields < 2) continue
+        name = field[1]
+        place(field[2], name)
+        knows[name, name] = 1
+        for (k = 3; k <= fields; ++k)
+          for (other in wings)
+            if (knows[field[k], other]) knows[name, other] = 1
+        wings[name] = 1
+        for (k = 3; k <= fields; ++k) knows[name, field[k]] = 1
+      }
+    }
+    NF == 1 {
+      if (wing_of($1) == "") print $1 ": in no wing of the table"
+      next
+    }
+    {
+      file = $1
+      sub(/:.*/, "", file)
+      from = wing_of(file)
+      to = wing_of($2)
+      if (to == "") print $0 ": in no wing of the table"
+      else if (!knows[from, to]) print $0 ": " from " may not include " to
+    }'
+}
+
 offenders=$(
-  # cdt stands alone: standard headers (neither slash nor dot in their names) and its own.
-  includes cdt | grep -vE '#include("cdt/[a-z_]+\.h"|<[a-z_0-9]+>)'
+  layers='cdt mesh reconstruct io app'
+  { find $layers -name '*.h' -o -name '*.cpp'; includes $layers | grep '#include"'; } | arrows
+
+  # cdt and mesh stand alone: standard headers (neither slash nor dot in their names) and their own.
+  includes cdt mesh | grep -vE '#include("|<[a-z_0-9]+>)'
   forbid cdt '(fstream|filesystem|iostream|chrono|thread|mutex)>'
-
-  forbid reconstruct '(io|app|tests|samples|bench)/'
+  forbid mesh '(fstream|filesystem|iostream|chrono|thread|mutex)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>|nlohmann|tiny_gltf|CLI'
-
-  forbid io '(app|tests|samples|bench)/|chrono>|CLI'
-  forbid app '(tests|samples|bench)/|tiny_gltf'
+  forbid io 'chrono>|CLI'
+  forbid app 'tiny_gltf'
 
   # Our own headers are named from the root of the project, so that their layer can be seen.
-  includes cdt reconstruct io app tests samples bench |
-    grep '#include"' | grep -vE '#include"(cdt|reconstruct|io|app|tests|bench)/'
+  includes $layers tests samples bench |
+    grep '#include"' | grep -vE '#include"(cdt|mesh|reconstruct|io|app|tests|bench)/'
 )
 if [ -n "$offenders" ]; then
-  echo "These lines include what their layer must not know (app -> io -> reconstruct -> cdt):"
+  echo "These lines include what their wing must not know (the table is in tests/layers.sh):"
   echo "$offenders" | sort -u
   exit 1
 fi

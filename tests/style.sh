@@ -15,12 +15,12 @@ ours() {
 
 case ${1:-} in
   format)
-    { ours '*.h' cdt reconstruct io app tests samples bench
-      ours '*.cpp' cdt reconstruct io app tests samples bench; } |
+    { ours '*.h' cdt mesh reconstruct io app tests samples bench
+      ours '*.cpp' cdt mesh reconstruct io app tests samples bench; } |
       xargs clang-format --dry-run -Werror
     ;;
   tidy)
-    ours '*.cpp' cdt reconstruct io app samples |
+    ours '*.cpp' cdt mesh reconstruct io app samples |
       xargs -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "$2"
     ;;
   *)

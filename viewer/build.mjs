@@ -55,7 +55,7 @@ await writeFile(out, `// Made by viewer/build.mjs.
 #include <string>
 #include <string_view>
 
-#include "app/assets.h"
+#include "app/server/assets.h"
 
 namespace loft::app {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/capture.h"
+#include "app/capture/capture.h"
 
 #include <algorithm>
 #include <iterator>
 #include <utility>
 
 #include "app/memory.h"
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "io/version.h"
 
 namespace loft::app {

@@ -16,13 +16,13 @@
 #include <utility>
 #include <vector>
 
-#include "app/feed.h"
+#include "app/capture/feed.h"
+#include "app/capture/labelled_surfaces.h"
+#include "app/capture/net_change.h"
 #include "app/json.h"
-#include "app/labelled_surfaces.h"
-#include "app/net_change.h"
-#include "io/edit.h"
-#include "io/session.h"
-#include "reconstruct/snapshot.h"
+#include "io/session/session.h"
+#include "io/stacks/edit.h"
+#include "reconstruct/live/snapshot.h"
 
 namespace loft::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/edit_source.h"
+#include "app/capture/edit_source.h"
 
 #include <fcntl.h>
 #include <poll.h>
@@ -13,9 +13,9 @@
 #include <thread>
 #include <utility>
 
-#include "io/checksum.h"
-#include "io/file.h"
-#include "io/text.h"
+#include "io/bytes/checksum.h"
+#include "io/bytes/file.h"
+#include "io/bytes/text.h"
 
 namespace loft::app {
 

@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "io/session.h"
+#include "io/session/session.h"
 
 namespace loft::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/feed.h"
+#include "app/capture/feed.h"
 
 #include <utility>
 

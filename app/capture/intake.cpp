@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/intake.h"
+#include "app/capture/intake.h"
 
 #include <algorithm>
 #include <thread>

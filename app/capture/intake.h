@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "app/capture.h"
+#include "app/capture/capture.h"
 
 namespace loft::app {
 

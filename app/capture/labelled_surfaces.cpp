@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/labelled_surfaces.h"
+#include "app/capture/labelled_surfaces.h"
 
 #include <algorithm>
 #include <cstdint>
 
 #include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
-#include "reconstruct/out_of_core.h"
+#include "reconstruct/usable.h"
 
 namespace loft::app {
 

@@ -8,9 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include "app/net_change.h"
-#include "io/edit.h"
-#include "io/stack_state.h"
+#include "app/capture/net_change.h"
+#include "io/session/stack_state.h"
+#include "io/stacks/edit.h"
 #include "reconstruct/options.h"
 #include "reconstruct/reconstruction.h"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/net_change.h"
+#include "app/capture/net_change.h"
 
 namespace loft::app {
 

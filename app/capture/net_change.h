@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "app/json.h"
-#include "reconstruct/surface_change.h"
+#include "reconstruct/live/surface_change.h"
 
 namespace loft::app {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "app/recorder.h"
+#include "app/capture/recorder.h"
 
 #include <set>
 #include <utility>
 
-#include "io/atomic_file.h"
+#include "io/bytes/atomic_file.h"
 
 namespace loft::app {
 

@@ -5,8 +5,8 @@
 #include <exception>
 #include <filesystem>
 
-#include "app/capture.h"
-#include "io/replay.h"
+#include "app/capture/capture.h"
+#include "io/gltf/replay.h"
 
 namespace loft::app {
 

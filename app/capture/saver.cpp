@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/saver.h"
+#include "app/capture/saver.h"
 
 #include <exception>
 #include <utility>

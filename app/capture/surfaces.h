@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "app/capture.h"
-#include "io/part.h"
+#include "app/capture/capture.h"
+#include "io/meshes/part.h"
 
 namespace loft::app {
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/check.h"
+#include "mesh/check.h"
 
 #include <algorithm>
 #include <iostream>
 #include <map>
 #include <string>
 
-#include "app/commands.h"
-#include "app/fidelity.h"
+#include "app/commands/commands.h"
+#include "app/commands/fidelity.h"
 #include "app/json.h"
 #include "app/report.h"
 #include "app/terminal.h"
 #include "io/meshes.h"
 #include "io/slices.h"
-#include "reconstruct/measure.h"
+#include "mesh/measure.h"
 
 namespace loft::app {
 

@@ -4,30 +4,14 @@
 #include <filesystem>
 #include <optional>
 #include <set>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
-#include "io/svg.h"
+#include "app/exit_code.h"
+#include "io/planar/svg.h"
 #include "reconstruct/options.h"
 
 namespace loft::app {
-
-/// What the program tells its caller; `loft --help` lists them, too.
-enum class ExitCode {
-  ok = 0,
-  check_failed = 1,
-  usage = 2,
-  bad_input = 3,
-  cannot_write = 4,
-  interrupted = 130,
-};
-
-/// The command line asks for something that makes no sense.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
 
 /// Whether a stack is read as a whole.
 enum class Memory { by_size, in_memory, out_of_core };

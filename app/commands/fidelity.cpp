@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/fidelity.h"
+#include "app/commands/fidelity.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/labelled_mesh.h"
+#include "io/meshes/labelled_mesh.h"
 #include "reconstruct/slice.h"
 
 namespace loft::app {

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/commands/commands.h"
 #include "app/json.h"
 #include "app/report.h"
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "io/meshes.h"
 #include "io/slices.h"
-#include "reconstruct/measure.h"
+#include "mesh/measure.h"
 
 namespace loft::app {
 

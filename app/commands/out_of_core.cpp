@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
-#include "app/out_of_core.h"
+#include "app/commands/out_of_core.h"
 
 #include <algorithm>
 #include <map>
 #include <system_error>
 #include <utility>
 
+#include "app/commands/place_of.h"
 #include "app/interrupt.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
-#include "io/file.h"
-#include "io/ply_pieces.h"
+#include "io/bytes/file.h"
+#include "io/meshes/ply_pieces.h"
 #include "io/stack_file.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/reconstruct.h"

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "app/commands.h"
-#include "app/report.h"
+#include "app/commands/commands.h"
+#include "app/commands/reconstruct_report.h"
 #include "app/terminal.h"
 
 namespace loft::app {

@@ -8,18 +8,19 @@
 #include <map>
 #include <utility>
 
-#include "app/commands.h"
+#include "app/commands/commands.h"
+#include "app/commands/out_of_core.h"
+#include "app/commands/place_of.h"
+#include "app/commands/reconstruct_report.h"
 #include "app/interrupt.h"
-#include "app/out_of_core.h"
 #include "app/overwriting.h"
 #include "app/place.h"
-#include "app/report.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
-#include "io/links_json.h"
 #include "io/slices.h"
+#include "io/stacks/links_json.h"
 #include "io/surfaces.h"
-#include "reconstruct/measure.h"
+#include "mesh/measure.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::app {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/session.h"
+#include "io/session/session.h"
 
 #include <array>
 #include <iostream>
@@ -7,15 +7,15 @@
 #include <string>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/commands/commands.h"
 #include "app/json.h"
 #include "app/overwriting.h"
 #include "app/report.h"
 #include "app/terminal.h"
-#include "io/atomic_file.h"
-#include "io/file.h"
-#include "io/slices_json.h"
-#include "io/stack_state.h"
+#include "io/bytes/atomic_file.h"
+#include "io/bytes/file.h"
+#include "io/session/stack_state.h"
+#include "io/stacks/slices_json.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::app {

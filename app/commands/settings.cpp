@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/settings.h"
+#include "app/commands/settings.h"
 
 #include <array>
 #include <charconv>

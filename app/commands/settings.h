@@ -4,8 +4,8 @@
 #include <map>
 #include <string>
 
-#include "app/capture.h"
-#include "app/commands.h"
+#include "app/capture/capture.h"
+#include "app/commands/commands.h"
 
 namespace loft::app {
 

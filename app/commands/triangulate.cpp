@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "app/commands.h"
+#include "app/commands/commands.h"
 #include "app/interrupt.h"
 #include "app/json.h"
 #include "app/overwriting.h"
@@ -16,10 +16,9 @@
 #include "app/stopwatch.h"
 #include "app/terminal.h"
 #include "cdt/triangulation.h"
-#include "io/planar_mesh.h"
+#include "io/planar/planar_mesh.h"
 #include "io/polylines.h"
 #include "io/triangulations.h"
-#include "io/version.h"
 #include "reconstruct/reconstruct.h"
 
 namespace loft::app {
@@ -126,12 +125,7 @@ void say_summary(const TriangulateCommand& command, const Summary& summary, Term
 /// (version), inputs, outputs, the counts of the summary, seconds of each stage (read, triangulate,
 /// number, write, total). Later versions of the schema may add keys.
 std::string to_json(const Summary& summary, const TriangulateCommand& command) {
-  Json json;
-  json["schema"] = "loft-triangulate";
-  json["schema_version"] = 1;
-  json["loft"] = io::version();
-  json["inputs"] = names(command.inputs);
-  json["outputs"] = names(command.outputs);
+  Json json = begin_report("loft-triangulate", command.inputs, command.outputs);
   json["constraints"] = summary.constraints;
   json["points"] = summary.points;
   json["vertices"] = summary.vertices;

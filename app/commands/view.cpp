@@ -3,17 +3,17 @@
 #include <memory>
 #include <thread>
 
-#include "app/capture.h"
-#include "app/commands.h"
-#include "app/feed.h"
+#include "app/capture/capture.h"
+#include "app/capture/feed.h"
+#include "app/commands/commands.h"
+#include "app/commands/settings.h"
 #include "app/interrupt.h"
-#include "app/server.h"
-#include "app/settings.h"
-#include "app/shown_capture.h"
-#include "app/shown_mesh.h"
+#include "app/server/server.h"
+#include "app/server/shown_capture.h"
+#include "app/server/shown_mesh.h"
 #include "app/terminal.h"
 #include "io/meshes.h"
-#include "io/session.h"
+#include "io/session/session.h"
 
 namespace loft::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/http.h"
+#include "app/server/http.h"
 
 #include <arpa/inet.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <array>
 
-#include "app/assets.h"
+#include "app/server/assets.h"
 
 namespace loft::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/server.h"
+#include "app/server/server.h"
 
 #include <algorithm>
 #include <array>
@@ -17,14 +17,14 @@
 #include <utility>
 #include <vector>
 
-#include "app/assets.h"
-#include "app/http.h"
-#include "app/surfaces.h"
-#include "io/file.h"
-#include "io/slab_glb.h"
-#include "io/slices_json.h"
+#include "app/capture/surfaces.h"
+#include "app/server/assets.h"
+#include "app/server/http.h"
+#include "io/bytes/file.h"
+#include "io/bytes/text.h"
+#include "io/gltf/slab_glb.h"
+#include "io/stacks/slices_json.h"
 #include "io/surfaces.h"
-#include "io/text.h"
 
 namespace loft::app {
 

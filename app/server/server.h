@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "app/capture.h"
-#include "app/feed.h"
-#include "app/shown.h"
+#include "app/capture/capture.h"
+#include "app/capture/feed.h"
+#include "app/server/shown.h"
 
 namespace loft::app {
 

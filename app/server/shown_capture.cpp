@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "app/shown_capture.h"
+#include "app/server/shown_capture.h"
 
 #include <sstream>
 
-#include "app/surfaces.h"
-#include "io/slab_glb.h"
+#include "app/capture/surfaces.h"
+#include "io/gltf/slab_glb.h"
 #include "io/surfaces.h"
 
 namespace loft::app {

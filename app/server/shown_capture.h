@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "app/capture.h"
-#include "app/shown.h"
+#include "app/capture/capture.h"
+#include "app/server/shown.h"
 
 namespace loft::app {
 

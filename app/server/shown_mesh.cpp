@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "app/shown_mesh.h"
+#include "app/server/shown_mesh.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
+#include "io/gltf/slab_glb.h"
 #include "io/meshes.h"
-#include "io/slab_glb.h"
 #include "io/version.h"
 
 namespace loft::app {

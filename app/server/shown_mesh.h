@@ -3,11 +3,11 @@
 
 #include <filesystem>
 
-#include "app/shown.h"
+#include "app/server/shown.h"
 #include "app/unit.h"
-#include "io/labelled_mesh.h"
-#include "reconstruct/measure.h"
-#include "reconstruct/snapshot.h"
+#include "io/meshes/labelled_mesh.h"
+#include "mesh/measure.h"
+#include "reconstruct/live/snapshot.h"
 
 namespace loft::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/file.h"
+#include "io/bytes/file.h"
 
 #include <algorithm>
 #include <cerrno>
@@ -8,7 +8,7 @@
 #include <system_error>
 #include <utility>
 
-#include "io/text.h"
+#include "io/bytes/text.h"
 
 namespace loft::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/json_reader.h"
+#include "io/bytes/json_reader.h"
 
 #include <algorithm>
 #include <array>
@@ -8,8 +8,8 @@
 #include <limits>
 #include <system_error>
 
-#include "io/text.h"
-#include "io/utf8.h"
+#include "io/bytes/text.h"
+#include "io/bytes/utf8.h"
 
 namespace loft::io {
 

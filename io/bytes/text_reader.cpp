@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/text_reader.h"
+#include "io/bytes/text_reader.h"
 
 #include <algorithm>
 #include <charconv>
 #include <system_error>
 
-#include "io/text.h"
+#include "io/bytes/text.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/utf8.h"
+#include "io/bytes/utf8.h"
 
 #include <bit>
 #include <cstddef>

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstddef>
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft::io {
 

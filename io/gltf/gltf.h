@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "io/labelled_mesh.h"
-#include "io/part.h"
+#include "io/meshes/labelled_mesh.h"
+#include "io/meshes/part.h"
 
 namespace loft::io {
 

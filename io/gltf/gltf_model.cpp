@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf_model.h"
+#include "io/gltf/gltf_model.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "io/utf8.h"
+#include "io/bytes/utf8.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 

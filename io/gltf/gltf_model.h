@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "io/little_endian.h"
-#include "io/shading.h"
-#include "reconstruct/mesh.h"
+#include "io/bytes/little_endian.h"
+#include "io/gltf/shading.h"
+#include "mesh/mesh.h"
 
 namespace loft::io {
 

@@ -8,12 +8,12 @@
 #include <optional>
 #include <utility>
 
-#include "io/affine.h"
-#include "io/file.h"
-#include "io/gltf.h"
-#include "io/little_endian.h"
-#include "io/polygons.h"
-#include "io/seam.h"
+#include "io/bytes/file.h"
+#include "io/bytes/little_endian.h"
+#include "io/gltf/affine.h"
+#include "io/gltf/gltf.h"
+#include "io/meshes/polygons.h"
+#include "io/meshes/seam.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {

@@ -4,9 +4,9 @@
 #include <limits>
 #include <utility>
 
-#include "io/gltf.h"
-#include "io/gltf_model.h"
-#include "io/shading.h"
+#include "io/gltf/gltf.h"
+#include "io/gltf/gltf_model.h"
+#include "io/gltf/shading.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {

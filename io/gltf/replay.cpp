@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/replay.h"
+#include "io/gltf/replay.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "io/gltf_model.h"
+#include "io/gltf/gltf_model.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
 

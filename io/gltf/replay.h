@@ -6,8 +6,8 @@
 #include <ostream>
 #include <string>
 
-#include "reconstruct/mesh.h"
-#include "reconstruct/snapshot.h"
+#include "mesh/mesh.h"
+#include "reconstruct/live/snapshot.h"
 
 namespace loft::io {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/shading.h"
+#include "io/gltf/shading.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 
-#include "reconstruct/vec3.h"
+#include "mesh/vec3.h"
 
 namespace loft::io {
 

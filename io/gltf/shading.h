@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "reconstruct/mesh.h"
-#include "reconstruct/snapshot.h"
+#include "mesh/mesh.h"
+#include "reconstruct/live/snapshot.h"
 #include "reconstruct/surface.h"
 
 namespace loft::io {

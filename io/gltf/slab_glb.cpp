@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/slab_glb.h"
+#include "io/gltf/slab_glb.h"
 
 #include <algorithm>
 #include <sstream>
 #include <utility>
 
-#include "io/gltf_model.h"
+#include "io/gltf/gltf_model.h"
 
 namespace loft::io {
 

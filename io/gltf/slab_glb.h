@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <string>
 
-#include "reconstruct/snapshot.h"
+#include "reconstruct/live/snapshot.h"
 
 namespace loft::io {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft::io {
 

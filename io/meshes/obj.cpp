@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "io/obj.h"
+#include "io/meshes/obj.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
-#include "io/polygons.h"
-#include "io/text.h"
-#include "io/text_reader.h"
+#include "io/bytes/text.h"
+#include "io/bytes/text_reader.h"
+#include "io/meshes/polygons.h"
 #include "io/version.h"
 #include "reconstruct/number_text.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/off.h"
+#include "io/meshes/off.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 
-#include "io/polygons.h"
-#include "io/text_reader.h"
+#include "io/bytes/text_reader.h"
+#include "io/meshes/polygons.h"
 #include "io/version.h"
 #include "reconstruct/number_text.h"
 

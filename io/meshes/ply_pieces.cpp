@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/ply_pieces.h"
+#include "io/meshes/ply_pieces.h"
 
 #include <algorithm>
 #include <fstream>
 #include <utility>
 
-#include "io/file.h"
-#include "io/ply_records.h"
+#include "io/bytes/file.h"
+#include "io/meshes/ply_records.h"
 
 namespace loft::io {
 

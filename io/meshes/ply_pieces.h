@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
-#include "reconstruct/surface_sink.h"
+#include "io/bytes/atomic_file.h"
+#include "reconstruct/sew/surface_sink.h"
 
 namespace loft::io {
 

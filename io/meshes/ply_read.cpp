@@ -9,11 +9,11 @@
 #include <optional>
 #include <utility>
 
-#include "io/little_endian.h"
-#include "io/ply.h"
-#include "io/polygons.h"
-#include "io/text.h"
-#include "io/text_reader.h"
+#include "io/bytes/little_endian.h"
+#include "io/bytes/text.h"
+#include "io/bytes/text_reader.h"
+#include "io/meshes/ply.h"
+#include "io/meshes/polygons.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {

@@ -8,8 +8,8 @@
 #include <span>
 #include <string>
 
-#include "io/little_endian.h"
-#include "reconstruct/mesh.h"
+#include "io/bytes/little_endian.h"
+#include "mesh/mesh.h"
 #include "reconstruct/origin.h"
 
 namespace loft::io {

@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "io/ply.h"
-#include "io/ply_records.h"
-#include "io/text.h"
+#include "io/bytes/text.h"
+#include "io/meshes/ply.h"
+#include "io/meshes/ply_records.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 

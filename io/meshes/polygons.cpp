@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/polygons.h"
+#include "io/meshes/polygons.h"
 
 #include <algorithm>
 #include <cassert>

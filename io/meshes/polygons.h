@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "io/labelled_mesh.h"
-#include "reconstruct/mesh.h"
+#include "io/meshes/labelled_mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft::io {
 

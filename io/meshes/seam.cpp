@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/seam.h"
+#include "io/meshes/seam.h"
 
 #include <algorithm>
 #include <bit>

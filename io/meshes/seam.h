@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft::io {
 

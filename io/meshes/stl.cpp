@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stl.h"
+#include "io/meshes/stl.h"
 
 #include <array>
 #include <cmath>
@@ -8,13 +8,13 @@
 #include <optional>
 #include <utility>
 
-#include "io/little_endian.h"
-#include "io/polygons.h"
-#include "io/seam.h"
-#include "io/text_reader.h"
+#include "io/bytes/little_endian.h"
+#include "io/bytes/text_reader.h"
+#include "io/meshes/polygons.h"
+#include "io/meshes/seam.h"
 #include "io/version.h"
+#include "mesh/vec3.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/vec3.h"
 
 namespace loft::io {
 

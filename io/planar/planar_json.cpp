@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: MIT
-#include "io/planar_json.h"
+#include "io/planar/planar_json.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 
-#include "io/json_reader.h"
+#include "io/bytes/json_reader.h"
 #include "io/version.h"
 #include "reconstruct/number_text.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "io/planar_mesh.h"
+#include "io/planar/planar_mesh.h"
 
 #include <algorithm>
 #include <string_view>
 #include <utility>
 
-#include "io/ids_in_use.h"
+#include "io/planar/ids_in_use.h"
 
 namespace loft::io {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "io/planar_ply.h"
+#include "io/planar/planar_ply.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
 
-#include "io/little_endian.h"
-#include "io/palette.h"
-#include "io/text.h"
+#include "io/bytes/little_endian.h"
+#include "io/bytes/text.h"
+#include "io/planar/hues.h"
 #include "io/version.h"
 
 namespace loft::io {

@@ -3,7 +3,7 @@
 
 #include <ostream>
 
-#include "io/planar_mesh.h"
+#include "io/planar/planar_mesh.h"
 
 namespace loft::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/polylines_geojson.h"
+#include "io/planar/polylines_geojson.h"
 
 #include <algorithm>
 #include <array>
@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "io/coordinate.h"
-#include "io/json_reader.h"
-#include "io/problems.h"
-#include "io/text.h"
+#include "io/bytes/coordinate.h"
+#include "io/bytes/json_reader.h"
+#include "io/bytes/problems.h"
+#include "io/bytes/text.h"
 
 namespace loft::io {
 

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/polylines.h"
+#include "io/planar/polyline.h"
 
 namespace loft::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/polylines_text.h"
+#include "io/planar/polylines_text.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "io/coordinate.h"
-#include "io/problems.h"
-#include "io/text.h"
-#include "io/text_reader.h"
+#include "io/bytes/coordinate.h"
+#include "io/bytes/problems.h"
+#include "io/bytes/text.h"
+#include "io/bytes/text_reader.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::io {

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/polylines.h"
+#include "io/planar/polyline.h"
 
 namespace loft::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/svg.h"
+#include "io/planar/svg.h"
 
 #include <algorithm>
 #include <array>
@@ -11,8 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include "io/palette.h"
-#include "io/svg_path.h"
+#include "io/planar/hues.h"
+#include "io/planar/svg_path.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::io {

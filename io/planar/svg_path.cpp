@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/svg_path.h"
+#include "io/planar/svg_path.h"
 
 #include <utility>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/session.h"
+#include "io/session/session.h"
 
 #include <sqlite3.h>
 
@@ -8,8 +8,8 @@
 #include <string_view>
 #include <utility>
 
-#include "io/session_database.h"
-#include "io/session_salvage.h"
+#include "io/session/session_database.h"
+#include "io/session/session_salvage.h"
 
 namespace loft::io {
 

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "io/edit.h"
-#include "io/file.h"
+#include "io/bytes/file.h"
+#include "io/stacks/edit.h"
 
 namespace loft::io {
 

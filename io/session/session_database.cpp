@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/session_database.h"
+#include "io/session/session_database.h"
 
 #include <fcntl.h>
 #include <sqlite3.h>
@@ -11,7 +11,7 @@
 #include <fstream>
 #include <system_error>
 
-#include "io/session.h"
+#include "io/session/session.h"
 
 namespace loft::io {
 

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <utility>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "io/session_salvage.h"
+#include "io/session/session_salvage.h"
 
 #include <utility>
 
-#include "io/checksum.h"
+#include "io/bytes/checksum.h"
 
 namespace loft::io {
 

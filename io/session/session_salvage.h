@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "io/session.h"
+#include "io/session/session.h"
 
 namespace loft::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stack_state.h"
+#include "io/session/stack_state.h"
 
 #include <utility>
 

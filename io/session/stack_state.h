@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/edit.h"
+#include "io/stacks/edit.h"
 
 namespace loft::io {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/links_json.h"
+#include "io/stacks/links_json.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <string>
 #include <utility>
 
-#include "io/file.h"
-#include "io/json_reader.h"
-#include "io/problems.h"
-#include "io/text.h"
-#include "reconstruct/link_orders.h"
+#include "io/bytes/file.h"
+#include "io/bytes/json_reader.h"
+#include "io/bytes/problems.h"
+#include "io/bytes/text.h"
+#include "reconstruct/link/link_orders.h"
 
 namespace loft::io {
 

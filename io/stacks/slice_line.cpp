@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: MIT
-#include "io/slice_line.h"
+#include "io/stacks/slice_line.h"
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <utility>
 
-#include "io/edit.h"
-#include "io/json_reader.h"
-#include "io/text.h"
+#include "io/bytes/json_reader.h"
+#include "io/bytes/text.h"
+#include "io/stacks/edit.h"
 
 namespace loft::io {
 

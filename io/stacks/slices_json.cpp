@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: MIT
-#include "io/slices_json.h"
+#include "io/stacks/slices_json.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
 
-#include "io/edit.h"
-#include "io/file.h"
-#include "io/json_reader.h"
-#include "io/problems.h"
-#include "io/slice_line.h"
-#include "io/slice_lines.h"
-#include "io/text.h"
+#include "io/bytes/file.h"
+#include "io/bytes/json_reader.h"
+#include "io/bytes/problems.h"
+#include "io/bytes/text.h"
+#include "io/stacks/edit.h"
+#include "io/stacks/slice_line.h"
+#include "io/stacks/slice_lines.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
 #include "reconstruct/parallel.h"

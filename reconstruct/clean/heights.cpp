@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/heights.h"
+#include "reconstruct/clean/heights.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,31 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "reconstruct/out_of_core.h"
-
 namespace loft {
-
-std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
-                                  const std::optional<std::string>& label) {
-  std::vector<Defect> found;
-  const auto note = [&](std::optional<std::uint32_t> contour, std::optional<std::uint32_t> point,
-                        const char* message) {
-    found.push_back({DefectKind::not_finite, slice.z, index, contour, point, {}, 0, message});
-  };
-  if (!(std::abs(slice.z) <= cdt::Triangulation::largest_coordinate))
-    note({}, {}, "the height is not a finite number below 1e75; correct it or leave the slice out");
-  for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
-    if (label && slice.contours[c].label != *label) continue;
-    const auto& points = slice.contours[c].points;
-    for (std::uint32_t p = 0; p < points.size(); ++p)
-      if (!cdt::Triangulation::is_usable(points[p].x) ||
-          !cdt::Triangulation::is_usable(points[p].y))
-        note(c, p,
-             "a coordinate is not finite, beyond 1e75, or below 1e-50 without being 0; "
-             "correct the point or leave it out");
-  }
-  return found;
-}
 
 bool are_too_near(double lower, double upper) {
   constexpr double least_gap = 0x1p-40;  // relative to the height

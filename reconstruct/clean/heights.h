@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "cdt/triangulation.h"
+#include "reconstruct/clean/region.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/options.h"
-#include "reconstruct/region.h"
 #include "reconstruct/slice.h"
 
 namespace loft {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/meetings.h"
+#include "reconstruct/clean/meetings.h"
 
 #include <algorithm>
 #include <cmath>

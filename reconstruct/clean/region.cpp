@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/region.h"
+#include "reconstruct/clean/region.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,9 +11,9 @@
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
-#include "reconstruct/keyholes.h"
-#include "reconstruct/meetings.h"
-#include "reconstruct/simple_slice.h"
+#include "reconstruct/clean/keyholes.h"
+#include "reconstruct/clean/meetings.h"
+#include "reconstruct/clean/simple_slice.h"
 
 namespace loft {
 
@@ -571,6 +571,17 @@ Region clean(std::span<const ContourSource> contours, double z, const Filling& f
              std::vector<Defect>& repairs) {
   Triangulation memory;
   return clean(contours, z, filling, repairs, memory);
+}
+
+std::vector<Segment> boundary(const Region& region) {
+  std::vector<Segment> edges;
+  edges.reserve(region.loop_vertices.size());
+  for (std::size_t i = 0; i < region.loop_count(); ++i) {
+    const auto loop = region.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k)
+      edges.push_back({region.points[loop[k]], region.points[loop[(k + 1) % loop.size()]]});
+  }
+  return edges;
 }
 
 bool is_same_in_slice(const Region& a, const Region& b) {

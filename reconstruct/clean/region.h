@@ -10,6 +10,7 @@
 #include "reconstruct/defect.h"
 #include "reconstruct/options.h"
 #include "reconstruct/origin.h"
+#include "reconstruct/plane/segment_tree.h"
 
 namespace loft {
 
@@ -36,6 +37,9 @@ struct Region {
 [[nodiscard]] inline bool is_simple(const Region& region) {
   return region.loop_vertices.size() == region.points.size();
 }
+
+/// The edges of all loops, in their order, the region on their left.
+[[nodiscard]] std::vector<Segment> boundary(const Region& region);
 
 /// Whether two regions are the same in their slices, whichever these are.
 [[nodiscard]] bool is_same_in_slice(const Region& a, const Region& b);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/simple_slice.h"
+#include "reconstruct/clean/simple_slice.h"
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
 #include "cdt/predicates.h"
-#include "reconstruct/nearest.h"
-#include "reconstruct/tile_grid.h"
+#include "reconstruct/plane/nearest.h"
+#include "reconstruct/plane/tile_grid.h"
 
 namespace loft {
 

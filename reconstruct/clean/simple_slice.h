@@ -4,8 +4,8 @@
 #include <optional>
 #include <span>
 
+#include "reconstruct/clean/region.h"
 #include "reconstruct/options.h"
-#include "reconstruct/region.h"
 
 namespace loft {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/link_orders.h"
+#include "reconstruct/link/link_orders.h"
 
 #include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
 
-#include "reconstruct/adjacency.h"
-#include "reconstruct/box_tree.h"
-#include "reconstruct/parts.h"
-#include "reconstruct/predicates.h"
+#include "mesh/adjacency.h"
+#include "mesh/box_tree.h"
+#include "mesh/predicates.h"
+#include "reconstruct/link/parts.h"
 
 namespace loft {
 

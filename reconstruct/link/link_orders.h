@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reconstruct/links.h"
+#include "reconstruct/link/links.h"
 #include "reconstruct/options.h"
 #include "reconstruct/slice.h"
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/link_report.h"
+#include "reconstruct/link/link_report.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "reconstruct/links.h"
-#include "reconstruct/vec3.h"
+#include "mesh/vec3.h"
+#include "reconstruct/link/links.h"
 
 namespace loft {
 

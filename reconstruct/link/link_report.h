@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "cdt/point.h"
+#include "reconstruct/link/pieces.h"
 #include "reconstruct/options.h"
-#include "reconstruct/pieces.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/linking.h"
+#include "reconstruct/link/linking.h"
 
 #include <algorithm>
 #include <utility>

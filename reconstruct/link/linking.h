@@ -5,10 +5,10 @@
 #include <deque>
 #include <vector>
 
-#include "reconstruct/link_orders.h"
+#include "reconstruct/link/link_orders.h"
+#include "reconstruct/link/pieces.h"
 #include "reconstruct/options.h"
-#include "reconstruct/pieces.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/links.h"
+#include "reconstruct/link/links.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/pieces.h"
+#include "reconstruct/link/pieces.h"
 
 namespace loft {
 

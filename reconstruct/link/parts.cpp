@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/parts.h"
+#include "reconstruct/link/parts.h"
 
 #include <algorithm>
 
-#include "reconstruct/slab.h"
+#include "reconstruct/tile/slab.h"
 
 namespace loft {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "reconstruct/region.h"
+#include "reconstruct/clean/region.h"
 
 namespace loft {
 

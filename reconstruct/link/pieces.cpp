@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/pieces.h"
+#include "reconstruct/link/pieces.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,9 @@
 #include <numeric>
 #include <utility>
 
-#include "reconstruct/adjacency.h"
-#include "reconstruct/box_tree.h"
-#include "reconstruct/predicates.h"
+#include "mesh/adjacency.h"
+#include "mesh/box_tree.h"
+#include "mesh/predicates.h"
 
 namespace loft {
 

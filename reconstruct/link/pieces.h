@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/exchange.h"
+#include "reconstruct/live/exchange.h"
 
 #include <algorithm>
 #include <unordered_set>
 #include <utility>
 #include <vector>
 
-#include "reconstruct/caps.h"
-#include "reconstruct/sewing.h"
+#include "reconstruct/sew/caps.h"
+#include "reconstruct/sew/sewing.h"
 
 namespace loft {
 

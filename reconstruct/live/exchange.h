@@ -3,10 +3,10 @@
 
 #include <vector>
 
-#include "reconstruct/gaps.h"
-#include "reconstruct/live_stack.h"
-#include "reconstruct/rim.h"
-#include "reconstruct/surface_change.h"
+#include "reconstruct/live/gaps.h"
+#include "reconstruct/live/live_stack.h"
+#include "reconstruct/live/surface_change.h"
+#include "reconstruct/sew/rim.h"
 
 namespace loft {
 

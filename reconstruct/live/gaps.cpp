@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/gaps.h"
+#include "reconstruct/live/gaps.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "reconstruct/link_orders.h"
-#include "reconstruct/links.h"
-#include "reconstruct/refine.h"
-#include "reconstruct/retile.h"
+#include "reconstruct/link/link_orders.h"
+#include "reconstruct/link/links.h"
+#include "reconstruct/live/retile.h"
+#include "reconstruct/shape/refine.h"
 
 namespace loft {
 

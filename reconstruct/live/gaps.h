@@ -10,10 +10,10 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/live_stack.h"
-#include "reconstruct/pieces.h"
-#include "reconstruct/smooth.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/link/pieces.h"
+#include "reconstruct/live/live_stack.h"
+#include "reconstruct/shape/smooth.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/live_stack.h"
+#include "reconstruct/live/live_stack.h"
 
 #include <algorithm>
 #include <iterator>

@@ -10,18 +10,18 @@
 #include <vector>
 
 #include "cdt/triangulation.h"
+#include "reconstruct/clean/region.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/links.h"
-#include "reconstruct/live_surface.h"
+#include "reconstruct/link/links.h"
+#include "reconstruct/link/pieces.h"
+#include "reconstruct/live/live_surface.h"
+#include "reconstruct/live/snapshot.h"
 #include "reconstruct/options.h"
-#include "reconstruct/pieces.h"
-#include "reconstruct/region.h"
-#include "reconstruct/rim.h"
+#include "reconstruct/sew/rim.h"
+#include "reconstruct/shape/smooth.h"
 #include "reconstruct/slice.h"
-#include "reconstruct/smooth.h"
-#include "reconstruct/snapshot.h"
 #include "reconstruct/surface.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/live_surface.h"
+#include "reconstruct/live/live_surface.h"
 
 #include <algorithm>
 #include <limits>

@@ -7,9 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/box3.h"
-#include "reconstruct/rim.h"
-#include "reconstruct/sewing.h"
+#include "mesh/box3.h"
+#include "reconstruct/sew/rim.h"
+#include "reconstruct/sew/sewing.h"
 #include "reconstruct/surface.h"
 
 namespace loft {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/retile.h"
+#include "reconstruct/live/retile.h"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
-#include "reconstruct/links.h"
+#include "reconstruct/link/links.h"
 
 namespace loft {
 

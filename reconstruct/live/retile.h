@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "reconstruct/clean/region.h"
+#include "reconstruct/link/pieces.h"
 #include "reconstruct/options.h"
-#include "reconstruct/pieces.h"
-#include "reconstruct/region.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/snapshot.h"
+#include "reconstruct/live/snapshot.h"
 
 #include <algorithm>
 
-#include "reconstruct/caps.h"
-#include "reconstruct/sew.h"
+#include "reconstruct/sew/caps.h"
+#include "reconstruct/sew/sew.h"
 
 namespace loft {
 

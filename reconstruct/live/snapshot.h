@@ -9,15 +9,15 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/link_report.h"
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
+#include "reconstruct/clean/region.h"
+#include "reconstruct/link/link_report.h"
+#include "reconstruct/link/pieces.h"
 #include "reconstruct/options.h"
 #include "reconstruct/origin.h"
-#include "reconstruct/pieces.h"
-#include "reconstruct/region.h"
 #include "reconstruct/slice.h"
 #include "reconstruct/surface.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/stack_edit.h"
+#include "reconstruct/live/stack_edit.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,11 +9,11 @@
 #include <span>
 #include <utility>
 
-#include "reconstruct/exchange.h"
-#include "reconstruct/gaps.h"
-#include "reconstruct/heights.h"
+#include "reconstruct/clean/heights.h"
+#include "reconstruct/live/exchange.h"
+#include "reconstruct/live/gaps.h"
 #include "reconstruct/number_text.h"
-#include "reconstruct/out_of_core.h"
+#include "reconstruct/usable.h"
 
 namespace loft {
 

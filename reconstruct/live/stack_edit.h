@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
-#include "reconstruct/live_stack.h"
+#include "reconstruct/live/live_stack.h"
+#include "reconstruct/live/surface_change.h"
 #include "reconstruct/slice.h"
-#include "reconstruct/surface_change.h"
 
 namespace loft {
 

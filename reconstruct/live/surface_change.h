@@ -6,9 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "reconstruct/box3.h"
+#include "mesh/box3.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/snapshot.h"
+#include "reconstruct/live/snapshot.h"
 
 namespace loft {
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "cdt/point.h"
-#include "reconstruct/region.h"
+#include "reconstruct/plane/segment_tree.h"
 
 namespace loft {
 
-/// How far places in the plane are from the boundary of a region.
+/// How far places in the plane are from the boundary of a region, on which side of it.
 class SignedDistance {
  public:
   struct Value {
@@ -18,28 +18,15 @@ class SignedDistance {
   };
 
   SignedDistance() = default;
-  /// Keeps a copy of the loops' edges. Cost: O(n log n).
-  explicit SignedDistance(const Region& region);
+  /// The edges of the region's loops; the region is on their left. Cost: O(n log n).
+  explicit SignedDistance(std::vector<Segment> boundary) : tree_(std::move(boundary)) {}
 
-  [[nodiscard]] bool is_empty() const { return edges_.empty(); }
+  [[nodiscard]] bool is_empty() const { return tree_.is_empty(); }
   /// Precondition: the region is not empty. Cost: O(log n) in practice.
   [[nodiscard]] Value at(cdt::Point p) const;
 
  private:
-  struct Edge {  // the region is on its left
-    cdt::Point from;
-    cdt::Point to;
-  };
-  struct Node {
-    cdt::Box box;
-    std::uint32_t first;  // leaf: its edges are first ... first + count - 1
-    std::uint32_t count;  // inner: 0; children are the next node and node `first`
-  };
-
-  void build(std::uint32_t first, std::uint32_t last);
-
-  std::vector<Edge> edges_;
-  std::vector<Node> nodes_;
+  SegmentTree tree_;
 };
 
 }  // namespace loft

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/caps.h"
+#include "reconstruct/sew/caps.h"
 
 #include <algorithm>
 #include <cassert>

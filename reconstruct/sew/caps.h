@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "reconstruct/region.h"
-#include "reconstruct/sewing.h"
+#include "reconstruct/clean/region.h"
+#include "reconstruct/sew/sewing.h"
 
 namespace loft {
 

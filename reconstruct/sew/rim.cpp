@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/rim.h"
+#include "reconstruct/sew/rim.h"
 
 #include <algorithm>
 #include <utility>

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/region.h"
-#include "reconstruct/sewing.h"
+#include "reconstruct/clean/region.h"
+#include "reconstruct/sew/sewing.h"
 #include "reconstruct/surface.h"
 
 namespace loft {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/sew.h"
+#include "reconstruct/sew/sew.h"
 
 #include <algorithm>
 #include <iterator>
 #include <limits>
 #include <utility>
 
-#include "reconstruct/caps.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/parallel.h"
-#include "reconstruct/sewing.h"
+#include "reconstruct/sew/caps.h"
+#include "reconstruct/sew/sewing.h"
 
 namespace loft {
 

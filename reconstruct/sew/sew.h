@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
+#include "reconstruct/clean/region.h"
 #include "reconstruct/options.h"
-#include "reconstruct/region.h"
 #include "reconstruct/surface.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/sewing.h"
+#include "reconstruct/sew/sewing.h"
 
 #include <algorithm>
 #include <cassert>
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "cdt/predicates.h"
+#include "mesh/predicates.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/parallel.h"
-#include "reconstruct/predicates.h"
 
 namespace loft {
 

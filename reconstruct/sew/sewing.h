@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "reconstruct/clean/region.h"
 #include "reconstruct/origin.h"
-#include "reconstruct/region.h"
-#include "reconstruct/surface_sink.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/sew/surface_sink.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <span>
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 #include "reconstruct/origin.h"
 
 namespace loft {

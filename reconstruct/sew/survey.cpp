@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/survey.h"
+#include "reconstruct/sew/survey.h"
 
 #include <map>
 

@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/adjacency.h"
-#include "reconstruct/measure.h"
-#include "reconstruct/sewing.h"
-#include "reconstruct/surface_sink.h"
+#include "mesh/adjacency.h"
+#include "mesh/measure.h"
+#include "reconstruct/sew/sewing.h"
+#include "reconstruct/sew/surface_sink.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/refine.h"
+#include "reconstruct/shape/refine.h"
 
 #include <algorithm>
 #include <array>
@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/split_edges.h"
-#include "reconstruct/tile_mesh.h"
-#include "reconstruct/triangle_shape.h"
-#include "reconstruct/vec3.h"
+#include "mesh/triangle_shape.h"
+#include "mesh/vec3.h"
+#include "reconstruct/shape/split_edges.h"
+#include "reconstruct/shape/tile_mesh.h"
 
 namespace loft {
 

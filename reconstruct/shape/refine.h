@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include "reconstruct/clean/region.h"
 #include "reconstruct/options.h"
-#include "reconstruct/region.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/simplify.h"
+#include "reconstruct/shape/simplify.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 #include <queue>
 #include <vector>
 
-#include "reconstruct/face_tree.h"
-#include "reconstruct/predicates.h"
-#include "reconstruct/triangle_shape.h"
-#include "reconstruct/vec3.h"
+#include "mesh/face_tree.h"
+#include "mesh/predicates.h"
+#include "mesh/triangle_shape.h"
+#include "mesh/vec3.h"
 
 namespace loft {
 

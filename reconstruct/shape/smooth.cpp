@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/smooth.h"
+#include "reconstruct/shape/smooth.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,9 +8,9 @@
 #include <variant>
 #include <vector>
 
-#include "reconstruct/box_tree.h"
-#include "reconstruct/predicates.h"
-#include "reconstruct/vec3.h"
+#include "mesh/box_tree.h"
+#include "mesh/predicates.h"
+#include "mesh/vec3.h"
 
 namespace loft {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "reconstruct/pieces.h"
-#include "reconstruct/region.h"
-#include "reconstruct/smooth_shape.h"
-#include "reconstruct/tiles.h"
+#include "reconstruct/clean/region.h"
+#include "reconstruct/link/pieces.h"
+#include "reconstruct/shape/smooth_shape.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

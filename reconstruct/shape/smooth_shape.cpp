@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/smooth_shape.h"
+#include "reconstruct/shape/smooth_shape.h"
 
 #include <algorithm>
 #include <cmath>

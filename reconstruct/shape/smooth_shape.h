@@ -3,9 +3,9 @@
 
 #include <array>
 
-#include "reconstruct/mesh.h"
-#include "reconstruct/region.h"
-#include "reconstruct/signed_distance.h"
+#include "mesh/mesh.h"
+#include "reconstruct/clean/region.h"
+#include "reconstruct/plane/signed_distance.h"
 
 namespace loft {
 
@@ -15,7 +15,7 @@ struct SliceShape {
   SignedDistance distance;  ///< empty where the region is
 
   SliceShape() = default;
-  explicit SliceShape(const Region& region) : z(region.z), distance(region) {}
+  explicit SliceShape(const Region& region) : z(region.z), distance(boundary(region)) {}
 };
 
 /// A slab, between the slices [1] and [2], with the slices before and after it. Null at the end of

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/split_edges.h"
+#include "reconstruct/shape/split_edges.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cdt/expansion.h"
+#include "mesh/vec3.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/vec3.h"
 
 namespace loft {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "reconstruct/tile_mesh.h"
+#include "reconstruct/shape/tile_mesh.h"
 
 namespace loft {
 

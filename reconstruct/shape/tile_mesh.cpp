@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/tile_mesh.h"
+#include "reconstruct/shape/tile_mesh.h"
 
 #include <algorithm>
 #include <utility>
 
-#include "reconstruct/vec3.h"
+#include "mesh/vec3.h"
 
 namespace loft {
 

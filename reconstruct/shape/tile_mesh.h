@@ -8,9 +8,9 @@
 #include <span>
 #include <vector>
 
-#include "reconstruct/predicates.h"
-#include "reconstruct/tile_grid.h"
-#include "reconstruct/tiles.h"
+#include "mesh/predicates.h"
+#include "reconstruct/plane/tile_grid.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

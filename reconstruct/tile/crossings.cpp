@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/crossings.h"
+#include "reconstruct/tile/crossings.h"
 
 #include <algorithm>
 #include <array>
@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/predicates.h"
-#include "reconstruct/tile_grid.h"
-#include "reconstruct/vec3.h"
+#include "mesh/predicates.h"
+#include "mesh/vec3.h"
+#include "reconstruct/plane/tile_grid.h"
 
 namespace loft {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 

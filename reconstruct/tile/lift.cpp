@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/lift.h"
+#include "reconstruct/tile/lift.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "reconstruct/sheet_heights.h"
+#include "reconstruct/tile/sheet_heights.h"
 
 namespace loft {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/mesh.h"
-#include "reconstruct/slab.h"
+#include "mesh/mesh.h"
+#include "reconstruct/tile/slab.h"
 
 namespace loft {
 

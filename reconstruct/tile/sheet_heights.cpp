@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/sheet_heights.h"
+#include "reconstruct/tile/sheet_heights.h"
 
 #include <algorithm>
 #include <array>
@@ -103,7 +103,7 @@ void SheetHeights::explore(TriangleId start) {
 
 void SheetHeights::measure(Sheet& sheet) const {
   const Triangulation& mesh = slab_.overlay();
-  std::vector<NearestSegment::Segment> bounds[2];
+  std::vector<Segment> bounds[2];
   std::vector<Point> middles;
   for (std::size_t i = sheet.first; i < sheet.last; ++i) {
     const TriangleId t = triangles_[i];

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "reconstruct/nearest.h"
-#include "reconstruct/slab.h"
+#include "reconstruct/plane/nearest.h"
+#include "reconstruct/tile/slab.h"
 
 namespace loft {
 

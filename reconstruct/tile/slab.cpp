@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/slab.h"
+#include "reconstruct/tile/slab.h"
 
 #include <algorithm>
 #include <cmath>

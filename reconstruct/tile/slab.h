@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "cdt/triangulation.h"
-#include "reconstruct/mesh.h"
-#include "reconstruct/region.h"
+#include "mesh/mesh.h"
+#include "reconstruct/clean/region.h"
 
 namespace loft {
 

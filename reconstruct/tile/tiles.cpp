@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/tiles.h"
+#include "reconstruct/tile/tiles.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
-#include "reconstruct/box_tree.h"
-#include "reconstruct/crossings.h"
-#include "reconstruct/predicates.h"
-#include "reconstruct/slab.h"
+#include "mesh/box_tree.h"
+#include "mesh/predicates.h"
+#include "reconstruct/tile/crossings.h"
+#include "reconstruct/tile/slab.h"
 
 namespace loft {
 

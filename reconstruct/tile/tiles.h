@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "cdt/triangulation.h"
-#include "reconstruct/lift.h"
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
+#include "reconstruct/clean/region.h"
 #include "reconstruct/origin.h"
-#include "reconstruct/region.h"
+#include "reconstruct/tile/lift.h"
 
 namespace loft {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Uses all layers: a frustum from two squares, checked and written; and made slice by slice.
 #include <io/surfaces.h>
-#include <reconstruct/check.h>
-#include <reconstruct/measure.h>
+#include <mesh/check.h>
+#include <mesh/measure.h>
 #include <reconstruct/reconstruct.h>
 #include <reconstruct/reconstruction.h>
 

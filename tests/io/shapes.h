@@ -15,7 +15,7 @@
 #include <string_view>
 #include <vector>
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 #include "reconstruct/surface.h"
 
 namespace loft::io::testing {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "io/slices.h"
 #include "tests/io/shapes.h"
 

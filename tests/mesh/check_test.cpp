@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/check.h"
+#include "mesh/check.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "reconstruct/predicates.h"
+#include "mesh/predicates.h"
 #include "tests/reconstruct/shapes.h"
 
 namespace loft {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/measure.h"
+#include "mesh/measure.h"
 
 #include <gtest/gtest.h>
 

@@ -13,8 +13,8 @@
 #include <set>
 #include <string>
 
-#include "reconstruct/check.h"
-#include "reconstruct/measure.h"
+#include "mesh/check.h"
+#include "mesh/measure.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 

@@ -12,9 +12,9 @@
 #include <string>
 #include <vector>
 
-#include "reconstruct/measure.h"
-#include "tests/reconstruct/change_watch.h"
-#include "tests/reconstruct/edit_script.h"
+#include "mesh/measure.h"
+#include "tests/reconstruct/live/change_watch.h"
+#include "tests/reconstruct/live/edit_script.h"
 #include "tests/reconstruct/random_pairs.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"

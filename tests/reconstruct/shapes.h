@@ -8,7 +8,7 @@
 #include <numbers>
 #include <utility>
 
-#include "reconstruct/mesh.h"
+#include "mesh/mesh.h"
 
 namespace loft::shapes {
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reconstruct/check.h"
+#include "mesh/check.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/reconstruct.h"
 

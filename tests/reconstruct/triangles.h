@@ -7,8 +7,8 @@
 #include <limits>
 #include <vector>
 
+#include "mesh/vec3.h"
 #include "reconstruct/surface.h"
-#include "reconstruct/vec3.h"
 
 namespace loft::triangles {
 

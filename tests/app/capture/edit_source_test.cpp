@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/edit_source.h"
+#include "app/capture/edit_source.h"
 
 #include <fcntl.h>
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "tests/io/shapes.h"
 
 namespace loft::app {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/json_reader.h"
+#include "io/bytes/json_reader.h"
 
 #include <gtest/gtest.h>
 

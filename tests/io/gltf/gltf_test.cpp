@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf.h"
+#include "io/gltf/gltf.h"
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
+#include "io/gltf/shading.h"
 #include "io/meshes.h"
-#include "io/seam.h"
-#include "io/shading.h"
+#include "io/meshes/seam.h"
 #include "io/surfaces.h"
 #include "reconstruct/defect.h"
-#include "tests/io/glb.h"
+#include "tests/io/gltf/glb.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/replay.h"
+#include "io/gltf/replay.h"
 
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
@@ -12,7 +12,7 @@
 
 #include "reconstruct/defect.h"
 #include "reconstruct/reconstruction.h"
-#include "tests/io/glb.h"
+#include "tests/io/gltf/glb.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft::io {

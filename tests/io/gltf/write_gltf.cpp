@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "io/replay.h"
-#include "io/slab_glb.h"
+#include "io/gltf/replay.h"
+#include "io/gltf/slab_glb.h"
 #include "io/surfaces.h"
 #include "reconstruct/reconstruction.h"
 #include "tests/io/shapes.h"

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
-#include "io/little_endian.h"
+#include "io/bytes/file.h"
+#include "io/bytes/little_endian.h"
 #include "io/surfaces.h"
 #include "reconstruct/defect.h"
 #include "tests/io/shapes.h"

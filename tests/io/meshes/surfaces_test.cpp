@@ -13,8 +13,8 @@
 #include <string>
 #include <vector>
 
-#include "io/atomic_file.h"
-#include "io/file.h"
+#include "io/bytes/atomic_file.h"
+#include "io/bytes/file.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
-#include "io/polylines_geojson.h"
-#include "io/polylines_text.h"
+#include "io/bytes/file.h"
+#include "io/planar/polylines_geojson.h"
+#include "io/planar/polylines_text.h"
 #include "reconstruct/defect.h"
 #include "tests/io/shapes.h"
 

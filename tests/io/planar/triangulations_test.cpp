@@ -17,11 +17,11 @@
 #include <utility>
 #include <vector>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "io/meshes.h"
 #include "io/palette.h"
-#include "io/planar_json.h"
-#include "io/planar_ply.h"
+#include "io/planar/planar_json.h"
+#include "io/planar/planar_ply.h"
 #include "io/polylines.h"
 #include "tests/io/shapes.h"
 

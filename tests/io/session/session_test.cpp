@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/session.h"
+#include "io/session/session.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
 
 namespace loft::io {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/edit.h"
+#include "io/stacks/edit.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/stack_state.h"
+#include "io/session/stack_state.h"
 
 namespace loft::io {
 namespace {

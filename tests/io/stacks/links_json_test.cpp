@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/links_json.h"
+#include "io/stacks/links_json.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {

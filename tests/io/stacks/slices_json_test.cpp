@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/slices_json.h"
+#include "io/stacks/slices_json.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/file.h"
+#include "io/bytes/file.h"
 #include "io/slices.h"
 #include "reconstruct/defect.h"
 #include "tests/io/shapes.h"

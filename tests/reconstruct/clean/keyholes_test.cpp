@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/keyholes.h"
+#include "reconstruct/clean/keyholes.h"
 
 #include <gtest/gtest.h>
 

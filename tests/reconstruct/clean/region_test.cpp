@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/region.h"
+#include "reconstruct/clean/region.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/simple_slice.h"
+#include "reconstruct/clean/simple_slice.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/links.h"
+#include "reconstruct/link/links.h"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 #include <random>
 #include <set>
 
-#include "reconstruct/linking.h"
-#include "reconstruct/measure.h"
+#include "mesh/measure.h"
+#include "reconstruct/link/linking.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/reconstruct/change_watch.h"
+#include "tests/reconstruct/live/change_watch.h"
 
 #include <algorithm>
 #include <set>

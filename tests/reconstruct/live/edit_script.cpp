@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "tests/reconstruct/edit_script.h"
+#include "tests/reconstruct/live/edit_script.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "reconstruct/reconstruct.h"
-#include "tests/reconstruct/change_watch.h"
+#include "tests/reconstruct/live/change_watch.h"
 
 namespace loft::edits {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/signed_distance.h"
+#include "reconstruct/plane/signed_distance.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <random>
 
 #include "cdt/predicates.h"
-#include "reconstruct/nearest.h"
+#include "reconstruct/plane/nearest.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft {
@@ -46,7 +46,7 @@ TEST(SignedDistance, IsThatOfEveryEdge) {
     const Region region =
         clean_slice(seed % 3 == 0 ? stacks::random_mask(0, random, 6, 0.5)
                                   : stacks::random_slice(0, random, seed % 3 == 1));
-    const SignedDistance signed_distance(region);
+    const SignedDistance signed_distance(boundary(region));
     ASSERT_EQ(signed_distance.is_empty(), region.is_empty());
     if (region.is_empty()) continue;
     std::uniform_real_distribution<double> anywhere(-1, 8);
@@ -58,7 +58,7 @@ TEST(SignedDistance, IsThatOfEveryEdge) {
 }
 
 TEST(SignedDistance, GrowsOutwards) {
-  const SignedDistance square(clean_slice({0, {stacks::square(1)}}));
+  const SignedDistance square(boundary(clean_slice({0, {stacks::square(1)}})));
   const auto inside = square.at({0.75, 0.1});
   EXPECT_EQ(inside.distance, -0.25);
   EXPECT_DOUBLE_EQ(inside.outward.x, 1);
@@ -75,7 +75,7 @@ TEST(SignedDistance, GrowsOutwards) {
 // A corner that two loops share: which of its edges is nearest decides on the side.
 TEST(SignedDistance, KnowsItsSideAtCornersThatTouch) {
   const SignedDistance touching(
-      clean_slice({0, {stacks::square(1, {-1, -1}), stacks::square(1, {1, 1})}}));
+      boundary(clean_slice({0, {stacks::square(1, {-1, -1}), stacks::square(1, {1, 1})}})));
   EXPECT_GT(touching.at({-0.1, 0.1}).distance, 0);
   EXPECT_GT(touching.at({0.1, -0.1}).distance, 0);
   EXPECT_LT(touching.at({0.1, 0.2}).distance, 0);

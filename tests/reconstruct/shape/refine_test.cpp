@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/refine.h"
+#include "reconstruct/shape/refine.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@
 #include <string>
 #include <utility>
 
-#include "reconstruct/check.h"
+#include "mesh/check.h"
+#include "mesh/measure.h"
+#include "mesh/vec3.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/measure.h"
 #include "reconstruct/reconstruct.h"
-#include "reconstruct/vec3.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 #include "tests/reconstruct/triangles.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/simplify.h"
+#include "reconstruct/shape/simplify.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
+#include "mesh/measure.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/measure.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/smooth.h"
+#include "reconstruct/shape/smooth.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <random>
 #include <set>
 
-#include "reconstruct/measure.h"
+#include "mesh/measure.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"

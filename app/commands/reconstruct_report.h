@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/report.h"
+#include "mesh/measure.h"
+#include "reconstruct/defect.h"
+#include "reconstruct/link/link_report.h"
+#include "reconstruct/surface.h"
+
+namespace loft::app {
+
+/// What cleaning did, in all and slice by slice.
+struct CleaningSummary {
+  struct Slice {
+    std::uint32_t slice = 0;  ///< index in the input
+    double z = 0;
+    std::size_t repairs = 0;
+    double area = 0;
+  };
+  double area = 0;                            ///< sum of the repairs' areas
+  std::map<std::string, std::size_t> counts;  ///< by kind of repair
+  std::vector<Slice> slices;                  ///< those with repairs, by height
+};
+
+[[nodiscard]] CleaningSummary summarize(const std::vector<Defect>& repairs);
+/// `cleaning: 2 overlap, 1 spike in 3 slices; area in question 4.5, most in slice 7 (z = 3.5): 4`
+[[nodiscard]] std::string describe(const CleaningSummary& summary);
+
+/// One reconstructed label.
+struct PartReport {
+  std::string label;
+  StackSize input;
+  Measures measures;
+  std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
+  std::vector<Defect> repairs;
+  std::vector<SlabReport> slabs;
+  std::map<std::string, double> seconds;  ///< of each stage, by name(Stage)
+};
+
+[[nodiscard]] std::array<std::size_t, 4> count_kinds(const Surface& surface);
+
+/// What `loft reconstruct --json` prints, as one object with schema version 1:
+///
+///     schema "loft-reconstruct", schema_version 1, loft (version)
+///     inputs, outputs      file names
+///     options              fill, keyhole_width (null: by default), cap, link, max_shift (null: by
+///                          size), links (file or null), smooth, metres_per_unit; max_edge,
+///                          target_edge, simplify if given
+///     out_of_core          whether the stack stayed in its files
+///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
+///     seconds              of each stage that there is: read, clean, tile, smooth, refine, sew,
+///                          simplify, write, total
+///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
+///                          components, genus, area, volume, angles, seconds, vertices_of_kind
+///                          (contour, cleaning, crossing, steiner), cleaning (area; counts by kind;
+///                          slices: a list of slice, z, repairs, area), repairs (a list), slabs (a
+///                          list; out of core an empty one)
+///
+/// angles: of the smallest one of each triangle, in degrees, the least, percentile_5 and median;
+/// worst_aspect, the longest side over the height on it, 1 where all sides are equal.
+/// A repair: kind, slice (index in the input), z, contour, point, place [x, y] (null where not
+/// known), area (that it decided: see Defect), message.
+///
+/// A slab, from low to high: slices [lower, upper], z [lower, upper], sheet_area, wall_area,
+/// overlap, shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth,
+/// death), of (part or cavity), rule (overlap, slide, predicted, nearest, order; null for what
+/// begins or ends as nothing overlaps it), lower and upper: contours (a list of [slice, contour])
+/// and place [x, y] (null if there are none); shift, overlap, confidence. reconstruct/link/link_report.h
+/// says what the numbers mean, reconstruct/link/pieces.h the rules.
+///
+/// Lengths in the unit of the input. Later versions of the schema may add keys.
+struct Report {
+  StackSize input;
+  std::vector<PartReport> parts;
+  std::map<std::string, double> seconds;
+  bool is_out_of_core = false;
+};
+
+[[nodiscard]] std::string to_json(const Report& report, const ReconstructCommand& command);
+
+}  // namespace loft::app

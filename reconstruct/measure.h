@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Moved; this header stays until 1.0.
+#include "mesh/measure.h"
+#include "reconstruct/surface.h"

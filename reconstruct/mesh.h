@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+// Moved; this header stays until 1.0.
+#include "mesh/mesh.h"
