@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
 #include "reconstruct/link/linking.h"
 #include "reconstruct/parallel.h"

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
 #include "reconstruct/clean/region.h"
 #include "reconstruct/link/linking.h"

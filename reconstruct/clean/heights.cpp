@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "reconstruct/clean/cleaning.h"
+
 namespace loft {
 
 bool are_too_near(double lower, double upper) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdt/predicates.h"
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/plane/nearest.h"
 #include "reconstruct/plane/tile_grid.h"
 

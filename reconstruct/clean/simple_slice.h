@@ -4,6 +4,7 @@
 #include <optional>
 #include <span>
 
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/region.h"
 #include "reconstruct/options.h"
 

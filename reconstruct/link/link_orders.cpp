@@ -9,7 +9,9 @@
 #include "mesh/adjacency.h"
 #include "mesh/box_tree.h"
 #include "mesh/predicates.h"
+#include "reconstruct/link/extract.h"
 #include "reconstruct/link/parts.h"
+#include "reconstruct/link/replace.h"
 
 namespace loft {
 

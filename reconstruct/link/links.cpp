@@ -5,6 +5,9 @@
 #include <cmath>
 #include <utility>
 
+#include "reconstruct/link/extract.h"
+#include "reconstruct/link/replace.h"
+
 namespace loft {
 
 namespace {

@@ -2,8 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-#include <span>
 #include <vector>
 
 #include "reconstruct/tile/tiles.h"
@@ -67,40 +65,7 @@ struct Pieces {
 [[nodiscard]] std::vector<double> differences(const Region& lower, const Region& upper,
                                               const TileSet& tiles, const Pieces& pieces);
 
-/// Some loops of a region as a region of their own. Where they bound a cavity, turned round: its
-/// inside becomes the region's.
-class Extract {
- public:
-  Extract(const Region& region, std::span<const std::uint32_t> loops, bool is_solid);
-
-  [[nodiscard]] const Region& region() const { return extract_; }
-  /// The index in the whole region of a point of the extract.
-  [[nodiscard]] std::uint32_t original(std::uint32_t point) const { return original_[point]; }
-
- private:
-  Region extract_;
-  std::vector<std::uint32_t> original_;
-};
-
-/// Tiles of a part of a slab as tiles of the slab: nodes renumbered, those of a cavity turned to
-/// look the other way. Inner vertices keep their order, from the first number on.
-[[nodiscard]] TileSet embedded(TileSet tiles, const Extract& lower, const Extract& upper,
-                               std::uint32_t lower_count, std::uint32_t upper_count, bool is_solid);
-
-/// Tiles to put in the place of whole pieces.
-struct Replacement {
-  TileSet tiles;
-  Pieces pieces;                        ///< what they make
-  std::vector<std::uint32_t> replaced;  ///< the pieces that go
-};
-
-/// Puts replacements into the place of pieces, best first, as far as they meet nothing else: exact
-/// tests against all tiles that stay and all replacements before it. Returns whether any was.
-/// Cost: O(tiles + replacements), O(log n) each.
-bool replace(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-             std::span<Replacement> replacements);
-
-/// Adds tiles behind others; inner vertices are renumbered.
-void append(TileSet& tiles, const TileSet& more, std::uint32_t contour_count);
+/// Numbers pieces by their smallest contour points; those of the lower slice first.
+void sort_pieces(const Region& lower, const Region& upper, Pieces& pieces);
 
 }  // namespace loft

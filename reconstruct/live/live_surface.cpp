@@ -2,7 +2,6 @@
 #include "reconstruct/live/live_surface.h"
 
 #include <algorithm>
-#include <limits>
 #include <unordered_map>
 #include <utility>
 
@@ -20,7 +19,10 @@ using EdgeHandle = Surface::EdgeHandle;
 class LiveSurface::Splicing {
  public:
   Splicing(LiveSurface& live, Splice splice)
-      : live_(live), surface_(live.surface_), splice_(std::move(splice)) {}
+      : surface_(live.surface_),
+        elements_(live.elements_),
+        is_open_(live.is_open_),
+        splice_(std::move(splice)) {}
 
   Spliced run() {
     sew();
@@ -176,14 +178,6 @@ class LiveSurface::Splicing {
 
   // --- What goes ---
 
-  void mark(VertexHandle v, bool is_deleted) { surface_.status(v).set_deleted(is_deleted); }
-  void mark(FaceHandle f, bool is_deleted) { surface_.status(f).set_deleted(is_deleted); }
-  void mark(EdgeHandle e, bool is_deleted) {
-    surface_.status(e).set_deleted(is_deleted);
-    for (const unsigned i : {0U, 1U})
-      surface_.status(surface_.halfedge_handle(e, i)).set_deleted(is_deleted);
-  }
-
   void add_to_bounds(const Surface::Point& p) {
     const Vec3 place{p[0], p[1], p[2]};
     if (!result_.bounds) result_.bounds = Box3{place, place};
@@ -205,8 +199,7 @@ class LiveSurface::Splicing {
         add_to_bounds(surface_.point(touched_.back()));
         loose_.push_back(side);
       }
-      mark(f, true);
-      live_.free_faces_.push_back(f);
+      elements_.give_back(f);
       ++result_.faces_removed;
     }
     for (const FaceHandle f : staying) surface_.status(f).set_tagged(false);
@@ -216,8 +209,7 @@ class LiveSurface::Splicing {
       surface_.set_boundary(h);
       const EdgeHandle e = surface_.edge_handle(h);
       if (!surface_.is_boundary(other) || surface_.status(e).deleted()) continue;
-      mark(e, true);
-      live_.free_edges_.push_back(e);
+      elements_.give_back(e);
     }
     // Edges that no face is left at are on no rim any more.
     for (const RimmedSlice& slice : splice_.slices)
@@ -229,13 +221,6 @@ class LiveSurface::Splicing {
 
   // --- What comes ---
 
-  template <class Some>
-  static std::size_t missing(std::size_t needed, const std::vector<Some>& there) {
-    return needed - std::min(needed, there.size());
-  }
-
-  /// Arrays grow to twice their size, seldom enough for a steady pace. What is not used yet is
-  /// address space without memory behind it.
   void make_room() {
     std::size_t faces = 0;
     std::vector<bool> is_used(vertices_.size());
@@ -251,30 +236,7 @@ class LiveSurface::Splicing {
     }
     std::size_t edges = 0;
     for_each_half_edge([&](HalfEdge h) { edges += makes_edge(h) ? 1U : 0U; });
-    const std::size_t v = surface_.n_vertices() + missing(vertices, live_.free_vertices_);
-    const std::size_t e = surface_.n_edges() + missing(edges, live_.free_edges_);
-    const std::size_t f = surface_.n_faces() + missing(faces, live_.free_faces_);
-    surface_.reserve(enlarged(live_.vertex_room_, v), enlarged(live_.edge_room_, e),
-                     enlarged(live_.face_room_, f));
-    const auto v_before = static_cast<int>(surface_.n_vertices());
-    const auto e_before = static_cast<int>(surface_.n_edges());
-    const auto f_before = static_cast<int>(surface_.n_faces());
-    surface_.resize(v, e, f);
-    for (int i = static_cast<int>(v); i-- > v_before;) live_.free_vertices_.emplace_back(i);
-    for (int i = static_cast<int>(e); i-- > e_before;) live_.free_edges_.emplace_back(i);
-    for (int i = static_cast<int>(f); i-- > f_before;) live_.free_faces_.emplace_back(i);
-  }
-
-  static std::size_t enlarged(std::size_t& room, std::size_t needed) {
-    if (needed > room) room = 2 * needed;
-    return room;
-  }
-
-  template <class Some>
-  static Some take(std::vector<Some>& free) {
-    const Some one = free.back();
-    free.pop_back();
-    return one;
+    elements_.make_room(vertices, edges, faces);
   }
 
   void make_vertices() {
@@ -284,9 +246,8 @@ class LiveSurface::Splicing {
         const HalfEdge corner{face.layer, 3 * face.face + k};
         VertexHandle& v = vertex(corner);
         if (v.is_valid()) continue;
-        v = take(live_.free_vertices_);
+        v = elements_.take_vertex();
         const Vec3 p = sewing_.place(corner);
-        mark(v, false);
         surface_.set_point(v, {p[0], p[1], p[2]});
         surface_.data(v).origin = sewing_.origin(corner);
         surface_.set_isolated(v);
@@ -333,8 +294,7 @@ class LiveSurface::Splicing {
   }
 
   void make_edge(HalfEdge h, HalfEdge mate) {
-    const EdgeHandle e = take(live_.free_edges_);
-    mark(e, false);
+    const EdgeHandle e = elements_.take_edge();
     const Handle one = surface_.halfedge_handle(e, 0);
     const Handle other = surface_.halfedge_handle(e, 1);
     surface_.set_vertex_handle(one, vertex(Sewing::next(h)));
@@ -357,8 +317,7 @@ class LiveSurface::Splicing {
   }
 
   void make_face(Made& face) {
-    face.handle = take(live_.free_faces_);
-    mark(face.handle, false);
+    face.handle = elements_.take_face();
     const Layer& layer = sewing_.layer(face.layer);
     surface_.data(face.handle).kind = layer.tiles.tiles[face.face].kind;
     surface_.data(face.handle).slab = layer.slab;
@@ -379,7 +338,7 @@ class LiveSurface::Splicing {
   /// Edges at what went or came that have one face are a boundary now. A vertex there leads to its
   /// half-edge along the boundary.
   void close_boundaries() {
-    if (live_.is_open_) touch_what_stays();
+    if (is_open_) touch_what_stays();
     std::vector<Handle> boundary;
     for (const Handle h : loose_) {
       if (surface_.status(surface_.edge_handle(h)).deleted()) continue;
@@ -391,7 +350,7 @@ class LiveSurface::Splicing {
         }
       }
     }
-    if (live_.is_open_) {
+    if (is_open_) {
       for (const Made& face : made_)
         for (const std::uint32_t k : {0U, 1U, 2U})
           if (!face.stays) lead_from_vertex(handle({face.layer, 3 * face.face + k}));
@@ -418,7 +377,7 @@ class LiveSurface::Splicing {
   /// From the start of a side of a face, to its boundary if it is on one.
   void lead_from_vertex(Handle side) {
     Handle h = side;
-    if (live_.is_open_) {
+    if (is_open_) {
       do {
         h = surface_.opposite_halfedge_handle(surface_.prev_halfedge_handle(h));
       } while (h != side && !surface_.is_boundary(h));
@@ -441,9 +400,8 @@ class LiveSurface::Splicing {
       if (surface_.status(v).deleted()) continue;
       const Handle h = surface_.halfedge_handle(v);
       if (is_alive(h) && surface_.from_vertex_handle(h) == v) continue;
-      mark(v, true);
       surface_.set_isolated(v);
-      live_.free_vertices_.push_back(v);
+      elements_.give_back(v);
       ++result_.vertices_removed;
     }
   }
@@ -454,8 +412,9 @@ class LiveSurface::Splicing {
             !surface_.is_boundary(surface_.opposite_halfedge_handle(h)));
   }
 
-  LiveSurface& live_;
   Surface& surface_;
+  Elements& elements_;
+  bool is_open_;
   Splice splice_;
   Spliced result_;
   Sewing sewing_;
@@ -468,12 +427,6 @@ class LiveSurface::Splicing {
   std::vector<VertexHandle> touched_;              // corners of faces that went
   std::vector<Handle> loose_;  // sides of theirs, and the far sides of new edges
 };
-
-bool LiveSurface::has_room_for(std::size_t faces) const {
-  // OpenMesh's numbers are signed. A face has three edges, at worst its own.
-  constexpr std::size_t most = std::numeric_limits<int>::max();
-  return faces < most / 6 && surface_.n_halfedges() + 6 * faces < most;
-}
 
 Spliced LiveSurface::splice(Splice splice) { return Splicing(*this, std::move(splice)).run(); }
 
@@ -488,9 +441,7 @@ void LiveSurface::collect_garbage(std::span<std::vector<FaceHandle>* const> face
   for (std::vector<FaceHandle>* some : faces)
     for (FaceHandle& f : *some) all_faces.push_back(&f);
   surface_.garbage_collection(no_vertices, half_edges, all_faces);
-  free_vertices_.clear();
-  free_edges_.clear();
-  free_faces_.clear();
+  elements_.forget();
 }
 
 }  // namespace loft

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/box3.h"
+#include "reconstruct/live/elements.h"
 #include "reconstruct/sew/rim.h"
 #include "reconstruct/sew/sewing.h"
 #include "reconstruct/surface.h"
@@ -60,15 +61,16 @@ class LiveSurface {
  public:
   /// `is_open`: whether it may have boundaries.
   explicit LiveSurface(bool is_open) : is_open_(is_open) {}
+  LiveSurface(const LiveSurface&) = delete;  // its elements refer to its surface
+  LiveSurface& operator=(const LiveSurface&) = delete;
+  ~LiveSurface() = default;
 
   [[nodiscard]] const Surface& surface() const { return surface_; }
-  [[nodiscard]] std::size_t vertex_count() const {
-    return surface_.n_vertices() - free_vertices_.size();
-  }
-  [[nodiscard]] std::size_t face_count() const { return surface_.n_faces() - free_faces_.size(); }
+  [[nodiscard]] std::size_t vertex_count() const { return elements_.vertex_count(); }
+  [[nodiscard]] std::size_t face_count() const { return elements_.face_count(); }
 
   /// Whether a splice may bring so many faces: handles are numbered by int.
-  [[nodiscard]] bool has_room_for(std::size_t faces) const;
+  [[nodiscard]] bool has_room_for(std::size_t faces) const { return elements_.has_room_for(faces); }
 
   /// Law: afterwards the surface is the one that sewing all its layers at once would make. Handles
   /// of faces that stay, and of their edges and vertices, stay what they are.
@@ -90,13 +92,7 @@ class LiveSurface {
 
   bool is_open_;
   Surface surface_;
-  std::size_t vertex_room_ = 0;  // that its arrays have
-  std::size_t edge_room_ = 0;
-  std::size_t face_room_ = 0;
-  // Elements that are deleted.
-  std::vector<Surface::VertexHandle> free_vertices_;
-  std::vector<Surface::EdgeHandle> free_edges_;
-  std::vector<Surface::FaceHandle> free_faces_;
+  Elements elements_{surface_};
 };
 
 }  // namespace loft

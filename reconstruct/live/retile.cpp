@@ -5,7 +5,9 @@
 #include <map>
 #include <utility>
 
+#include "reconstruct/link/extract.h"
 #include "reconstruct/link/links.h"
+#include "reconstruct/link/replace.h"
 
 namespace loft {
 

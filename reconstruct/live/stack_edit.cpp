@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
 #include "reconstruct/live/exchange.h"
 #include "reconstruct/live/gaps.h"

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "mesh/predicates.h"
-#include "tests/reconstruct/shapes.h"
+#include "tests/mesh/shapes.h"
 
 namespace loft {
 namespace {
@@ -254,18 +254,6 @@ TEST(Check, FindsTheSelfIntersectionsThatBruteForceFinds) {
     }
     EXPECT_EQ(found, meeting_by_brute_force(mesh));
   }
-}
-
-TEST(Check, LooksAtSurfaces) {
-  Surface surface;
-  std::vector<Surface::VertexHandle> vertices;
-  const Mesh mesh = cube({0, 0, 0}, 1);
-  for (const Vec3& p : mesh.points) vertices.push_back(surface.add_vertex({p[0], p[1], p[2]}));
-  for (const auto& [a, b, c] : mesh.faces) {
-    surface.add_face(vertices[a], vertices[b], vertices[c]);
-  }
-  EXPECT_TRUE(check(surface).empty());
-  EXPECT_EQ(to_mesh(surface), mesh);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tests/reconstruct/shapes.h"
+#include "tests/mesh/shapes.h"
 
 namespace loft {
 namespace {

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "cdt/predicates.h"
+#include "reconstruct/clean/cleaning.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft {

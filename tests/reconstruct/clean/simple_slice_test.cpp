@@ -7,6 +7,7 @@
 #include <random>
 #include <set>
 
+#include "reconstruct/clean/cleaning.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft {

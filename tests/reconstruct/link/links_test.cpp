@@ -11,6 +11,7 @@
 #include <set>
 
 #include "mesh/measure.h"
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/link/linking.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/solid.h"

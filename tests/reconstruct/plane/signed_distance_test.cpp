@@ -8,6 +8,8 @@
 #include <random>
 
 #include "cdt/predicates.h"
+#include "reconstruct/clean/cleaning.h"
+#include "reconstruct/clean/region.h"
 #include "reconstruct/plane/nearest.h"
 #include "tests/reconstruct/stacks.h"
 

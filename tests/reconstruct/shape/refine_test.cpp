@@ -14,6 +14,7 @@
 #include "mesh/check.h"
 #include "mesh/measure.h"
 #include "mesh/vec3.h"
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/solid.h"
