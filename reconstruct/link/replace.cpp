@@ -159,7 +159,7 @@ class Replacing {
     }
     tiles_.tiles = std::move(kept);
     pieces_.of_tile = std::move(of_kept);
-    drop_unused_inner();
+    drop_unused_inner(tiles_.tiles, tiles_.inner, contour_count_);
     for (std::uint32_t r = 0; r < replacements_.size(); ++r) {
       if (!is_kept_[r]) continue;
       const Replacement& replacement = replacements_[r];
@@ -170,23 +170,6 @@ class Replacing {
       for (const Piece& piece : replacement.pieces.pieces) pieces_.pieces.push_back(piece);
     }
     drop_replaced_pieces();
-  }
-
-  void drop_unused_inner() {
-    std::vector<std::uint32_t> number(tiles_.inner.size(), none);
-    for (const Tile& tile : tiles_.tiles)
-      for (const std::uint32_t node : tile.nodes)
-        if (node >= contour_count_) number[node - contour_count_] = 0;
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < number.size(); ++i) {
-      if (number[i] == none) continue;
-      tiles_.inner[count] = tiles_.inner[i];
-      number[i] = count++;
-    }
-    tiles_.inner.resize(count);
-    for (Tile& tile : tiles_.tiles)
-      for (std::uint32_t& node : tile.nodes)
-        if (node >= contour_count_) node = contour_count_ + number[node - contour_count_];
   }
 
   void drop_replaced_pieces() {

@@ -10,12 +10,6 @@ namespace loft {
 
 namespace {
 
-cdt::Box footprint(const Corners& corners) {
-  cdt::Box box;
-  for (const Vec3& p : corners) box.add({p[0], p[1]});
-  return box;
-}
-
 bool has(const TileMesh::Nodes& nodes, std::uint32_t node) {
   return std::ranges::find(nodes, node) != nodes.end();
 }

@@ -125,9 +125,7 @@ class Collapse {
   }
 
   [[nodiscard]] cdt::Box footprint(const Nodes& nodes) const {
-    cdt::Box box;
-    for (const Vec3& p : places(nodes)) box.add({p[0], p[1]});
-    return box;
+    return loft::footprint(places(nodes));
   }
 
   [[nodiscard]] bool is_contour(std::uint32_t node) const { return node < contour_count_; }
@@ -298,21 +296,7 @@ class Collapse {
   /// Drops dead tiles and the inner vertices that no tile uses.
   void compact() {
     std::erase_if(tiles_, [](const Tile& tile) { return tile.nodes[0] == none; });
-    std::vector<bool> is_used(inner_.size());
-    for (const Tile& tile : tiles_)
-      for (const std::uint32_t node : tile.nodes)
-        if (!is_contour(node)) is_used[node - contour_count_] = true;
-    std::vector<std::uint32_t> renumbered(inner_.size(), none);
-    std::uint32_t count = 0;
-    for (std::uint32_t i = 0; i < inner_.size(); ++i) {
-      if (!is_used[i]) continue;
-      renumbered[i] = count;
-      inner_[count++] = inner_[i];
-    }
-    inner_.resize(count);
-    for (Tile& tile : tiles_)
-      for (std::uint32_t& node : tile.nodes)
-        if (!is_contour(node)) node = contour_count_ + renumbered[node - contour_count_];
+    drop_unused_inner(tiles_, inner_, contour_count_);
   }
 
   std::vector<Tile>& tiles_;

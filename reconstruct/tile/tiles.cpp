@@ -367,6 +367,25 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
   return tile_moved(lower, upper, shift, most_pairs, workspace);
 }
 
+void drop_unused_inner(std::vector<Tile>& tiles, std::vector<InnerVertex>& inner,
+                       std::uint32_t contour_count) {
+  constexpr std::uint32_t unused = Origin::none;
+  std::vector<std::uint32_t> number(inner.size(), unused);
+  for (const Tile& tile : tiles)
+    for (const std::uint32_t node : tile.nodes)
+      if (node >= contour_count) number[node - contour_count] = 0;
+  std::uint32_t count = 0;
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (number[i] == unused) continue;
+    inner[count] = inner[i];
+    number[i] = count++;
+  }
+  inner.resize(count);
+  for (Tile& tile : tiles)
+    for (std::uint32_t& node : tile.nodes)
+      if (node >= contour_count) node = contour_count + number[node - contour_count];
+}
+
 TileSet tile_apart(const Region& lower, const Region& upper) {
   TileWorkspace workspace;
   Region nothing;

@@ -10,6 +10,7 @@
 
 #include "cdt/triangulation.h"
 #include "mesh/mesh.h"
+#include "mesh/predicates.h"
 #include "reconstruct/clean/region.h"
 #include "reconstruct/origin.h"
 #include "reconstruct/tile/lift.h"
@@ -39,6 +40,17 @@ struct TileSet {
   if (node < upper.points.size()) return {upper.points[node].x, upper.points[node].y, upper.z};
   return inner[node - upper.points.size()].place;
 }
+
+/// What a tile covers seen from above.
+[[nodiscard]] inline cdt::Box footprint(const Corners& corners) {
+  cdt::Box box;
+  for (const Vec3& p : corners) box.add({p[0], p[1]});
+  return box;
+}
+
+/// Drops the inner vertices that no tile has; the others are renumbered, in their order.
+void drop_unused_inner(std::vector<Tile>& tiles, std::vector<InnerVertex>& inner,
+                       std::uint32_t contour_count);
 
 /// The surface between two neighbouring slices (design, section 3, steps 1 to 6): a pure function
 /// of the two regions. It touches the slice planes in the contours alone, each contour edge is an

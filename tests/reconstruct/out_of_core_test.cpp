@@ -121,33 +121,7 @@ TEST(OutOfCore, MergesTrimsAndWarnsAsInMemory) {
       expect_same_out_of_core(slices, {.cap = cap, .smooth = smooth, .threads = 1});
 }
 
-TEST(OutOfCore, RefusesWhatIsRefusedInMemory) {
-  const Slice empty{5, {}};
-  const Slice filled{7, {stacks::square(1)}};
-  Slice bad{9, {stacks::square(2)}};
-  bad.contours[0].points[2].x = 1e200;
-  const Slice near{7 + 1e-14, {stacks::square(1)}};
-  for (const auto& slices : std::vector<std::vector<Slice>>{
-           {}, {empty}, {filled}, {empty, filled}, {filled, bad}, {filled, near}}) {
-    std::string expected;
-    try {
-      (void)reconstruct(slices);
-    } catch (const InputError& error) {
-      expected = error.what();
-    }
-    Kept kept;
-    try {
-      (void)reconstruct_out_of_core(source(slices, 1), {}, kept);
-      FAIL();
-    } catch (const InputError& error) {
-      EXPECT_EQ(error.what(), expected);
-    }
-  }
-}
-
-TEST(OutOfCore, NamesAllHeightsThatAreNoNumbers) {
-  std::vector<Slice> slices = stacks::sphere(5, 10);
-  slices[1].z = slices[3].z = std::numeric_limits<double>::quiet_NaN();
+void expect_refused_as_in_memory(const std::vector<Slice>& slices) {
   std::string expected;
   try {
     (void)reconstruct(slices);
@@ -161,6 +135,23 @@ TEST(OutOfCore, NamesAllHeightsThatAreNoNumbers) {
   } catch (const InputError& error) {
     EXPECT_EQ(error.what(), expected);
   }
+}
+
+TEST(OutOfCore, RefusesWhatIsRefusedInMemory) {
+  const Slice empty{5, {}};
+  const Slice filled{7, {stacks::square(1)}};
+  Slice bad{9, {stacks::square(2)}};
+  bad.contours[0].points[2].x = 1e200;
+  const Slice near{7 + 1e-14, {stacks::square(1)}};
+  for (const auto& slices : std::vector<std::vector<Slice>>{
+           {}, {empty}, {filled}, {empty, filled}, {filled, bad}, {filled, near}})
+    expect_refused_as_in_memory(slices);
+}
+
+TEST(OutOfCore, NamesAllHeightsThatAreNoNumbers) {
+  std::vector<Slice> slices = stacks::sphere(5, 10);
+  slices[1].z = slices[3].z = std::numeric_limits<double>::quiet_NaN();
+  expect_refused_as_in_memory(slices);
 }
 
 TEST(OutOfCore, PassesOnWhatReadingThrowsAndStopsWhenAskedTo) {
