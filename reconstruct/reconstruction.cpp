@@ -10,6 +10,7 @@
 #include "reconstruct/clean/heights.h"
 #include "reconstruct/live/live_stack.h"
 #include "reconstruct/live/stack_edit.h"
+#include "reconstruct/nearest_height.h"
 #include "reconstruct/number_text.h"
 #include "reconstruct/usable.h"
 
@@ -17,9 +18,8 @@ namespace loft {
 
 namespace {
 
-InputError no_slice(double z) {
-  return InputError("there is no slice at z = " + exact(z) +
-                    "; insert it, or give the height of one that is there");
+InputError no_slice(double z, const LiveStack& stack) {
+  return InputError(no_slice_at(z, stack.stations));
 }
 
 }  // namespace
@@ -55,7 +55,7 @@ SurfaceChange Reconstruction::replace(double z, Slice slice) {
 }
 
 SurfaceChange Reconstruction::replace(double z, std::shared_ptr<const Slice> slice) {
-  if (find(z) == nullptr) throw no_slice(z);
+  if (find(z) == nullptr) throw no_slice(z, *stack_);
   const double new_z = slice->z;
   if (new_z == z) return apply(*stack_, {{z, std::move(slice)}});
   if (find(new_z) != nullptr)
@@ -67,7 +67,7 @@ SurfaceChange Reconstruction::replace(double z, std::shared_ptr<const Slice> sli
 SurfaceChange Reconstruction::replace(std::vector<Slice> slices) {
   std::vector<SliceEdit> edits;
   for (Slice& slice : slices) {
-    if (find(slice.z) == nullptr) throw no_slice(slice.z);
+    if (find(slice.z) == nullptr) throw no_slice(slice.z, *stack_);
     const double z = slice.z;
     edits.push_back({z, std::make_shared<const Slice>(std::move(slice))});
   }
@@ -80,14 +80,14 @@ SurfaceChange Reconstruction::replace(std::vector<Slice> slices) {
 }
 
 SurfaceChange Reconstruction::remove(double z) {
-  if (find(z) == nullptr) throw no_slice(z);
+  if (find(z) == nullptr) throw no_slice(z, *stack_);
   return apply(*stack_, {{z}});
 }
 
 SurfaceChange Reconstruction::move_contour(double z, std::size_t contour,
                                            std::vector<cdt::Point> points) {
   const Slice* there = find(z);
-  if (there == nullptr) throw no_slice(z);
+  if (there == nullptr) throw no_slice(z, *stack_);
   if (contour >= there->contours.size())
     throw InputError("the slice at z = " + exact(z) + " has no contour " + std::to_string(contour));
   Slice slice = *there;

@@ -62,7 +62,7 @@ class Reconstruction {
   /// Each slab is made once, so that this takes about half the time of one after the other.
   /// Throws as replace(), and where two slices have the same height.
   SurfaceChange replace(std::vector<Slice> slices);
-  /// Throws InputError where there is no slice at z.
+  /// Throws InputError where there is no slice at z; it names the nearest height that there is.
   SurfaceChange remove(double z);
   /// Gives a contour of the slice at z other points; it keeps its label.
   /// Throws InputError as replace(), and where there is no such contour.

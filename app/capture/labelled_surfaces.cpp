@@ -35,7 +35,7 @@ void check(const Slice& slice, const Slice& all, std::size_t index) {
 
 LabelledSurfaces::Exchange LabelledSurfaces::apply(const io::Edit& edit, NetChange& change) {
   const double z = edit.slice.z;
-  if (const auto problem = stack_.problem(edit)) throw InputError(*problem + "; insert it first");
+  if (const auto problem = stack_.problem(edit)) throw InputError(*problem);
   Exchange exchange{z, stack_.find(z), stack_.after(edit)};
   if (exchange.after != nullptr) {
     check(edit.slice, *exchange.after, stack_.slices().size());

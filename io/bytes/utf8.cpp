@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/bytes/utf8.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -27,6 +28,13 @@ bool is_utf8(std::string_view text) {
     text.remove_prefix(length - 1);
   }
   return true;
+}
+
+std::string json_text(std::string text) {
+  if (is_utf8(text)) return text;
+  std::ranges::replace_if(
+      text, [](char c) { return (c & 0x80) != 0; }, '?');
+  return text;
 }
 
 void append_utf8(std::string& text, char32_t character) {

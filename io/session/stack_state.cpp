@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "reconstruct/nearest_height.h"
+
 namespace loft::io {
 
 std::optional<std::string> StackState::apply(const Edit& edit) {
@@ -13,7 +15,7 @@ std::optional<std::string> StackState::apply(const Edit& edit) {
 
 std::optional<std::string> StackState::problem(const Edit& edit) const {
   if (edit.kind == Edit::Kind::insert || slices_.contains(edit.slice.z)) return {};
-  return "there is no slice at that height";
+  return no_slice_at(edit.slice.z, slices_);
 }
 
 StackState::SharedSlice StackState::after(const Edit& edit) const {

@@ -17,7 +17,8 @@ class StackState {
  public:
   using SharedSlice = std::shared_ptr<const Slice>;
 
-  /// Returns what is wrong with the edit, and changes nothing then: a slice that is not there.
+  /// Returns what is wrong with the edit, and changes nothing then: a slice that is not there
+  /// (the nearest height is named).
   /// A slice inserted at a height that is there adds its contours to those there.
   std::optional<std::string> apply(const Edit& edit);
   /// What apply() would return.

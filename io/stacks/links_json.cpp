@@ -5,15 +5,18 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
 
 #include "io/bytes/file.h"
 #include "io/bytes/json_reader.h"
+#include "io/bytes/near_word.h"
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "reconstruct/link/link_orders.h"
+#include "reconstruct/nearest_height.h"
 
 namespace loft::io {
 
@@ -50,15 +53,13 @@ class OrderReader {
   void read_order() {
     if (json_.peek() != JsonKind::object)
       return reject("", "an order {\"from\": ..., \"to\": ..., \"link\": true or false}");
-    bool has_from = false;
-    bool has_to = false;
+    KeyWatch keys{"from", "to", "link"};
     json_.begin_object();
     while (const auto key = json_.next_key()) {
+      keys.note(*key);
       if (*key == "from") {
-        has_from = true;
         read_contour("\"from\": ", order_.from);
       } else if (*key == "to") {
-        has_to = true;
         read_contour("\"to\": ", order_.to);
       } else if (*key == "link") {
         read_link();
@@ -67,8 +68,9 @@ class OrderReader {
       }
     }
     json_.end("; one order a line");
-    if (!has_from) complain(std::string("\"from\" is missing; write ") + wanted_contour);
-    if (!has_to) complain(std::string("\"to\" is missing; write ") + wanted_contour);
+    for (const std::string& problem : keys.misspelt()) complain(problem);
+    if (keys.lacks("from")) complain(std::string("\"from\" is missing; write ") + wanted_contour);
+    if (keys.lacks("to")) complain(std::string("\"to\" is missing; write ") + wanted_contour);
   }
 
   void read_link() {
@@ -96,30 +98,35 @@ class OrderReader {
   }
 
   void read_height(const std::string& place, ContourId& id) {
-    bool has_z = false;
-    bool has_contour = false;
+    KeyWatch keys{"z", "contour"};
     json_.begin_object();
     while (const auto key = json_.next_key()) {
+      keys.note(*key);
       if (*key == "z") {
-        has_z = true;
         read_z(place + "\"z\": ", id);
       } else if (*key == "contour") {
-        has_contour = true;
         id.contour = read_index(place + "\"contour\": ");
       } else {
         json_.skip();
       }
     }
-    if (!has_z || !has_contour) complain(place + "needs \"z\" and \"contour\"");
+    for (const std::string& problem : keys.misspelt()) complain(place + problem);
+    if (keys.lacks("z") || keys.lacks("contour")) complain(place + "needs \"z\" and \"contour\"");
   }
 
   void read_z(const std::string& place, ContourId& id) {
     if (json_.peek() != JsonKind::number) return reject(place, "the height of a slice");
     const double z = json_.number();
     const auto found = std::ranges::find(slices_, z, &Slice::z);
-    if (found == slices_.end())
-      return complain(place + "no slice has the height " + std::string(json_.last_word()));
+    if (found == slices_.end()) return complain(place + no_slice_at(z, heights()));
     id.slice = static_cast<std::uint32_t>(found - slices_.begin());
+  }
+
+  /// For a message only: made when there is something wrong.
+  [[nodiscard]] std::map<double, bool> heights() const {
+    std::map<double, bool> heights;
+    for (const Slice& slice : slices_) heights[slice.z] = true;
+    return heights;
   }
 
   std::uint32_t read_index(const std::string& place) {

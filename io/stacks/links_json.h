@@ -19,7 +19,8 @@ namespace loft::io {
 /// `slice` is the index of a slice in the stack, in the order of the input, from 0; `contour` the
 /// index of a contour in it. A slice may also be named by its height: `{"z": 1.25, "contour": 2}`
 /// in the place of the pair; where several have that height, the first. `link` false keeps the two
-/// apart; it is true where it is left out. Unknown keys and blank lines are ignored.
+/// apart; it is true where it is left out. Blank lines and unknown keys are ignored, misspelt keys
+/// are errors as in a stack (slices_json.h).
 ///
 /// Throws InputError that names `name` and line of each problem (the first 20, and how many more),
 /// also for what find_bad_orders() finds; FileError if reading fails. Cost: O(orders * log).

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/bytes/json_reader.h"
+#include "io/bytes/near_word.h"
 #include "io/bytes/text.h"
 #include "io/stacks/edit.h"
 
@@ -48,12 +49,11 @@ class LineReader {
   }
 
   void read_member(const std::string& key) {
+    keys_.note(key);
     if (key == "z") {
-      has_z_ = true;
       line_.z = read_number([] { return std::string("\"z\": "); }, "a finite number");
       line_.edit.slice.z = line_.z.value_or(0);
     } else if (key == "contours") {
-      has_contours_ = true;
       read_contours();
     } else if (key == "labels") {
       has_labels_ = true;
@@ -154,12 +154,14 @@ class LineReader {
   /// What only the whole line can tell.
   void check_members() {
     std::vector<Contour>& contours = line_.edit.slice.contours;
-    if (!has_z_) complain("\"z\" is missing; a slice needs its height");
+    for (const std::string& problem : keys_.misspelt()) complain(problem);
+    if (keys_.lacks("z")) complain("\"z\" is missing; a slice needs its height");
     if (line_.edit.kind == Edit::Kind::remove) {
       contours.clear();
       return;
     }
-    if (!has_contours_) complain("\"contours\" is missing; an empty slice has \"contours\": []");
+    if (keys_.lacks("contours"))
+      complain("\"contours\" is missing; an empty slice has \"contours\": []");
     if (has_labels_ && labels_.size() != contours.size()) {
       return complain(std::to_string(labels_.size()) + " labels for " +
                       std::to_string(contours.size()) + " contours; each contour needs one");
@@ -171,8 +173,7 @@ class LineReader {
   Content content_;
   EditLine line_;
   std::vector<std::string> labels_;
-  bool has_z_ = false;
-  bool has_contours_ = false;
+  KeyWatch keys_{"z", "contours", "labels", "op"};
   bool has_labels_ = false;
 };
 

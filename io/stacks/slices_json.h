@@ -18,8 +18,9 @@ namespace loft::io {
 ///
 /// A contour is closed without repeating its first point (a repeated one does no harm). The
 /// optional `labels` name each contour. `"op": "insert"` is accepted; other edits belong in a
-/// stream. Unknown keys, blank lines, a byte order mark and CRLF line ends are ignored. Contours of
-/// any number of points are kept, and so are two lines with the same z.
+/// stream. Blank lines, a byte order mark, CRLF line ends and unknown keys are ignored; but a key
+/// that is a letter away from one that is not there (`"contour"`, `"Z"`, `"lables"`) is misspelt,
+/// and an error. Contours of any number of points are kept, and so are two lines with the same z.
 ///
 /// Coordinates must be finite numbers. Throws InputError that names `name`, line, slice, contour
 /// and point of each bad place (the first 20, and how many more), also for a stream without slices;

@@ -50,7 +50,8 @@ TEST_F(Posting, AnswersEachLine) {
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->status, 422);
   results = json::parse(answer->body)["results"];
-  EXPECT_THAT(results[1]["error"], HasSubstr("there is no slice at"));
+  EXPECT_THAT(results[1]["error"],
+              HasSubstr("there is no slice at z = 77; the nearest is at z = 3"));
   EXPECT_FALSE(results[2].contains("error"));
   const json status = json::parse(client_->Get("/status")->body);
   EXPECT_EQ(status["slices"], 5);

@@ -52,6 +52,27 @@ TEST(EditLine, AllThatIsWrongIsSaid) {
                           HasSubstr("NaN is not a number"), HasSubstr("\"contours\" is missing")));
 }
 
+TEST(EditLine, MisspeltKeysAreNamed) {
+  EXPECT_THAT(parse_edit_line(R"({"opp": "remove", "z": 2, "contours": []})").problems,
+              ElementsAre("unknown key 'opp'; write \"op\""));
+  EXPECT_THAT(parse_edit_line(R"({"Op": "remove", "z": 2})").problems,
+              ElementsAre("unknown key 'Op'; write \"op\"", HasSubstr("\"contours\" is missing")));
+}
+
+TEST(StackState, AHeightThatIsNotThereNamesTheNearest) {
+  StackState state;
+  const auto remove = [&](double z) {
+    return state.problem({Edit::Kind::remove, {z, {}}}).value_or("");
+  };
+  EXPECT_EQ(remove(1), "there is no slice at z = 1; there are no slices");
+  for (const double z : {14.60316, 15.0, 17.0})
+    state.set(z, std::make_shared<const Slice>(Slice{z, {}}));
+  EXPECT_EQ(remove(14.603), "there is no slice at z = 14.603; the nearest is at z = 14.60316");
+  EXPECT_EQ(remove(16), "there is no slice at z = 16; the nearest is at z = 15");
+  EXPECT_EQ(remove(16.5), "there is no slice at z = 16.5; the nearest is at z = 17");
+  EXPECT_EQ(remove(99), "there is no slice at z = 99; the nearest is at z = 17");
+}
+
 TEST(StackState, EditsAreAppliedInOrder) {
   StackState state;
   const auto apply = [&](const char* line) { return state.apply(parse_edit_line(line).edit); };

@@ -61,7 +61,7 @@ TEST(LinksJson, NamesEveryProblemWithItsLine) {
       {R"({"from": [0, 0], "to": [1, -1]})",
        R"("to": -1 is no index; write a whole number, counted from 0)"},
       {R"({"from": [0, 0], "to": {"z": 3, "contour": 0}})",
-       R"("to": "z": no slice has the height 3)"},
+       R"("to": "z": there is no slice at z = 3; the nearest is at z = 2.5)"},
       {R"({"from": [0, 0], "to": {"z": 2.5}})", R"("to": needs "z" and "contour")"},
       {R"({"from": [0, 0], "to": [1, 0], "link": "no"})",
        R"("link": expected true or false, found a string)"},
@@ -78,6 +78,18 @@ TEST(LinksJson, NamesEveryProblemWithItsLine) {
             "links.ndjson:1: \"to\" is missing; write [slice, contour] or {\"z\": ..., "
             "\"contour\": ...}\n"
             "links.ndjson:2: there is no slice 7; the stack has 3, counted from 0");
+}
+
+TEST(LinksJson, MisspeltKeysAreNamed) {
+  const std::vector<std::pair<std::string, std::string>> cases{
+      {R"({"form": [0, 1], "to": [1, 0]})", R"(unknown key 'form'; write "from")"},
+      {R"({"from": [0, 1], "to": [1, 0], "lnik": false})", R"(unknown key 'lnik'; write "link")"},
+      {R"({"from": {"Z": 0, "contour": 1}, "to": [1, 0]})",
+       R"("from": unknown key 'Z'; write "z")"},
+      {R"({"from": {"z": 0, "contours": 1}, "to": [1, 0]})",
+       R"("from": unknown key 'contours'; write "contour")"},
+  };
+  for (const auto& [line, words] : cases) EXPECT_EQ(problem(line), "links.ndjson:1: " + words);
 }
 
 TEST(LinksJson, AFileThatIsNotThereIsNamed) {

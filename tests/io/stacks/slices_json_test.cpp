@@ -62,6 +62,12 @@ TEST(SlicesJson, IgnoresWhatDoesNoHarm) {
   EXPECT_EQ(read("{\"op\":\"insert\",\"z\":2,\"contours\":[]}").size(), 1U);
 }
 
+TEST(SlicesJson, KeysThatAreNearNoneOfOursAreIgnored) {
+  EXPECT_EQ(
+      problem(R"({"z":2,"contours":[],"x":1,"colours":1,"spacing":2,"label":"a","labels":[]})"),
+      "no problem");
+}
+
 TEST(SlicesJson, KeepsSmallContoursAndEqualHeights) {
   const auto stack =
       read("{\"z\":1,\"contours\":[[],[[1,2]],[[1,2],[3,4]]]}\n{\"z\":1,\"contours\":[]}");
@@ -128,6 +134,11 @@ TEST(SlicesJson, NamesLineSliceContourAndPoint) {
       {"{\"z\":2,\"contours\":[]} {}",
        "stack.ndjson:1: slice 0 (z = 2) broken JSON at column 23: something behind the closing "
        "bracket; one slice a line"},
+      {"{\"z\":2,\"contour\":[[[0,0]]]}",
+       "stack.ndjson:1: slice 0 (z = 2) unknown key 'contour'; write \"contours\""},
+      {"{\"Z\":2,\"contours\":[]}", "stack.ndjson:1: slice 0 unknown key 'Z'; write \"z\""},
+      {"{\"z\":2,\"contours\":[],\"lables\":[]}",
+       "stack.ndjson:1: slice 0 (z = 2) unknown key 'lables'; write \"labels\""},
       {"[1]",
        "stack.ndjson:1: slice 0 expected a slice {\"z\": ..., \"contours\": [...]}, found a list"},
   };
