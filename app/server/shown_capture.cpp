@@ -17,7 +17,7 @@ std::optional<std::string> ShownCapture::slab(std::size_t part, std::uint32_t id
   if (i == snapshot.slab_count()) return {};
   const Capture::Setup& setup = capture_.setup();
   return io::slab_glb(snapshot, i,
-                      {label, part, capture_.birth(part, id), setup.options.cap == Cap::open,
+                      {label, capture_.birth(part, id), setup.options.cap == Cap::open,
                        view->origin, setup.metres_per_unit});
 }
 

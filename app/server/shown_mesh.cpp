@@ -94,7 +94,6 @@ std::optional<std::string> ShownMesh::slab(std::size_t part, std::uint32_t id) {
   const auto& [label, patch, chunks] = parts_[part];
   return io::slab_glb(patch, chunks[id],
                       {.label = label,
-                       .colour = part,
                        .is_double_sided = true,
                        .origin = origin_,
                        .metres_per_unit = metres_per_unit_});

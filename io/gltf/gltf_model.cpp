@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "io/bytes/utf8.h"
+#include "io/gltf/label_colour.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 
@@ -48,19 +48,6 @@ int add_indices(Buffer& buffer, const ShadedMesh& mesh, int component_type) {
   return buffer.last_accessor();
 }
 
-/// Colours as far apart as can be for any number of parts: hues a golden angle apart, the first
-/// that of bone. Linear, as glTF has them.
-std::vector<double> colour(std::size_t number) {
-  if (number == 0) return {0.80, 0.72, 0.58, 1.0};
-  constexpr double golden = 0.618'033'988'749'895;
-  const double hue = std::fmod(0.02 + golden * static_cast<double>(number), 1.0) * 6;
-  const auto channel = [hue](double shift) {
-    const double k = std::fmod(hue + shift, 6.0);
-    return 0.75 - 0.6 * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
-  };
-  return {channel(5), channel(3), channel(1), 1.0};
-}
-
 }  // namespace
 
 tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffer,
@@ -80,10 +67,11 @@ tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffe
   return result;
 }
 
-tinygltf::Material material(const std::string& name, std::size_t number, bool is_double_sided) {
+tinygltf::Material material(const std::string& name, bool is_double_sided) {
+  const auto [red, green, blue] = label_colour(name);
   tinygltf::Material result;
   result.name = name;
-  result.pbrMetallicRoughness.baseColorFactor = colour(number);
+  result.pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1.0};
   result.pbrMetallicRoughness.metallicFactor = 0;
   result.pbrMetallicRoughness.roughnessFactor = 0.7;
   result.doubleSided = is_double_sided;
@@ -97,13 +85,6 @@ tinygltf::Model empty_model() {
   model.scenes.resize(1);
   model.defaultScene = 0;
   return model;
-}
-
-std::string json_text(std::string text) {
-  if (is_utf8(text)) return text;
-  std::ranges::replace_if(
-      text, [](char c) { return (c & 0x80) != 0; }, '?');
-  return text;
 }
 
 void write_model(std::ostream& out, const tinygltf::Model& model, bool binary) {

@@ -74,16 +74,11 @@ class Buffer {
 [[nodiscard]] tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffer,
                                             tinygltf::Model& model);
 
-/// Not metallic, in the colour of that number: these are as far apart as can be for any count.
-[[nodiscard]] tinygltf::Material material(const std::string& name, std::size_t number,
-                                          bool is_double_sided);
+/// Not metallic, in the colour of the label of that name.
+[[nodiscard]] tinygltf::Material material(const std::string& name, bool is_double_sided);
 
 /// An empty model with its version, the program's name and a scene.
 [[nodiscard]] tinygltf::Model empty_model();
-
-/// Text that JSON can hold: where it is no UTF-8 (a file's name can be anything), its odd bytes are
-/// replaced.
-[[nodiscard]] std::string json_text(std::string text);
 
 /// Throws Error where that fails, and where the buffer is larger than glTF can say.
 void write_model(std::ostream& out, const tinygltf::Model& model, bool binary);

@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "io/bytes/utf8.h"
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_model.h"
 #include "io/gltf/shading.h"
@@ -46,7 +47,7 @@ void add_part(const Part& part, const Frame& frame, Buffer& buffer, tinygltf::Mo
   mesh.primitives.push_back(primitive(shade(*part.surface), frame, buffer, model));
   mesh.primitives.back().material = static_cast<int>(number);
   model.meshes.push_back(std::move(mesh));
-  model.materials.push_back(material(name_of(part), number, is_open(*part.surface)));
+  model.materials.push_back(material(name_of(part), is_open(*part.surface)));
 
   tinygltf::Node node;
   node.name = name_of(part);

@@ -22,12 +22,11 @@ class Replay {
   Replay(Replay&&) noexcept;
   Replay& operator=(Replay&&) noexcept;
 
-  /// Slab i of a snapshot appears, `time` seconds after the begin. `key` names it from then on;
-  /// `colour` is the number of its label. One that is there already is shaded anew if the slabs
-  /// beside it, which smooth its normals, have made a difference. Throws Error where coordinates
-  /// are too large for glTF.
+  /// Slab i of a snapshot appears, `time` seconds after the begin. `key` names it from then on.
+  /// One that is there already is shaded anew if the slabs beside it, which smooth its normals,
+  /// have made a difference. Throws Error where coordinates are too large for glTF.
   void add(double time, const std::string& key, const Snapshot& snapshot, std::size_t i,
-           const std::string& label, std::size_t colour);
+           const std::string& label);
   /// It goes. Nothing happens if it never appeared.
   void remove(double time, const std::string& key);
 

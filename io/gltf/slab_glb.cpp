@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "io/bytes/utf8.h"
 #include "io/gltf/gltf_model.h"
 
 namespace loft::io {
@@ -36,7 +37,7 @@ std::string glb(ShadedMesh shaded, Extras extras, const SlabView& view) {
     mesh.primitives.push_back(primitive(std::move(shaded), frame, buffer, model));
     mesh.primitives.back().material = 0;
     model.meshes.push_back(std::move(mesh));
-    model.materials.push_back(material(name, view.colour, view.is_double_sided));
+    model.materials.push_back(material(name, view.is_double_sided));
     node.mesh = 0;
   } else {
     model.buffers.clear();

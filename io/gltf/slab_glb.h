@@ -12,7 +12,6 @@ namespace loft::io {
 /// How a slab is to be shown.
 struct SlabView {
   std::string label;
-  std::size_t colour = 0;  ///< number of the label
   std::uint64_t edit = 0;  ///< that made it
   bool is_double_sided = false;
   Vec3 origin{};  ///< coordinates are relative to it; the node moves them back

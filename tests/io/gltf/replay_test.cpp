@@ -87,7 +87,7 @@ void film(Replay& replay, double time, const SurfaceChange& change, const Recons
   const Snapshot now = stack.snapshot();
   for (const std::uint32_t id : change.removed) replay.remove(time, std::to_string(id));
   for (std::size_t i = 0; i < now.slab_count(); ++i)
-    replay.add(time, std::to_string(now.slab(i).id), now, i, "heart", 0);
+    replay.add(time, std::to_string(now.slab(i).id), now, i, "heart");
 }
 
 TEST(Replay, ShowsTheSurfaceAsItWasAfterEachEdit) {

@@ -51,10 +51,10 @@ int main() {
     const Snapshot snapshot = live.snapshot();
     for (const std::uint32_t id : change.removed) replay.remove(i, std::to_string(id));
     for (const SlabInfo& slab : change.added)
-      replay.add(i, std::to_string(slab.id), snapshot, snapshot.find(slab.id), "heart", 0);
+      replay.add(i, std::to_string(slab.id), snapshot, snapshot.find(slab.id), "heart");
   }
   std::ofstream slab("slab.glb", std::ios::binary);
-  slab << io::slab_glb(live.snapshot(), 1, {.label = "lung", .colour = 1, .origin = {5, 5, 5}});
+  slab << io::slab_glb(live.snapshot(), 1, {.label = "lung", .origin = {5, 5, 5}});
   std::ofstream animated("replay.glb", std::ios::binary);
   replay.write(animated);
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#include "io/gltf/label_colour.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "io/bytes/text.h"
+#include "io/bytes/utf8.h"
+
+namespace loft::io {
+
+namespace {
+
+/// FNV-1a, and a finaliser that lets each byte move each bit.
+std::uint64_t hash(std::string_view text) {
+  std::uint64_t value = 0xcbf2'9ce4'8422'2325;
+  for (const char c : text) value = (value ^ static_cast<unsigned char>(c)) * 0x100'0000'01b3;
+  value = (value ^ (value >> 30U)) * 0xbf58'476d'1ce4'e5b9;
+  value = (value ^ (value >> 27U)) * 0x94d0'49bb'1331'11eb;
+  return value ^ (value >> 31U);
+}
+
+/// 16 bits of the hash as a number from 0 to below 1.
+double share(std::uint64_t hash, unsigned place) {
+  return static_cast<double>((hash >> (16 * place)) & 0xffffU) / 65536.0;
+}
+
+}  // namespace
+
+std::array<double, 3> label_colour(std::string_view label) {
+  const std::string name = json_text(one_line(label));
+  if (name.empty() || name == "surface") return {0.80, 0.72, 0.58};
+  const std::uint64_t bits = hash(name);
+  const double hue = share(bits, 0) * 6;
+  const double brightest = 0.45 + 0.4 * share(bits, 1);
+  const double depth = brightest * (0.55 + 0.35 * share(bits, 2));
+  const auto channel = [=](double shift) {
+    const double k = std::fmod(hue + shift, 6.0);
+    return brightest - depth * std::clamp(std::min(k, 4 - k), 0.0, 1.0);
+  };
+  return {channel(5), channel(3), channel(1)};
+}
+
+}  // namespace loft::io

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <string_view>
+
+namespace loft::io {
+
+/// The colour of a label, wherever it is shown: linear red, green and blue, as glTF has them. It
+/// depends on the name alone, so that a label keeps its colour whatever others there are; names
+/// give hues, and tones of them, at random. Nothing and `surface`, as files call it, have that of
+/// bone. Characters that some formats cannot hold count as what stands for them there.
+[[nodiscard]] std::array<double, 3> label_colour(std::string_view label);
+
+}  // namespace loft::io
