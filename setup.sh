@@ -20,7 +20,8 @@ if [ "$what" = bench ]; then
   packages="$packages libbenchmark-dev"
 fi
 if [ "$what" = tests ]; then
-  packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16 chromium"
+  packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16 chromium
+    doxygen groff-base bsdutils"
 fi
 # Node.js often comes from elsewhere than Debian, npm with it.
 if [ -n "${1:-}" ] && ! command -v npm > /dev/null; then

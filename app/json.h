@@ -28,11 +28,12 @@ inline Json names(std::span<const std::filesystem::path> paths) {
 
 /// How the report of a command begins that makes files out of files: schema, schema_version, loft
 /// (version), inputs, outputs.
-inline Json begin_report(const char* schema, std::span<const std::filesystem::path> inputs,
+inline Json begin_report(const char* schema, int version,
+                         std::span<const std::filesystem::path> inputs,
                          std::span<const std::filesystem::path> outputs) {
   Json json;
   json["schema"] = schema;
-  json["schema_version"] = 1;
+  json["schema_version"] = version;
   json["loft"] = io::version();
   json["inputs"] = names(inputs);
   json["outputs"] = names(outputs);

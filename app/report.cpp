@@ -103,12 +103,17 @@ std::string describe(const Angles& angles) {
          " degrees; worst aspect " + rounded(angles.worst_aspect);
 }
 
-std::string describe(const Measures& measures) {
+std::string unit_word(std::string_view unit) {
+  const bool is_name = !unit.empty() && unit.find_first_of("0123456789.") == std::string_view::npos;
+  return is_name ? std::string(unit) : "unit";
+}
+
+std::string describe(const Measures& measures, std::string_view unit) {
   return grouped(measures.faces) + " triangles, " + grouped(measures.vertices) + " vertices, " +
          grouped(measures.components) +
          (measures.components == 1 ? " component, genus " : " components, genus ") +
-         std::to_string(measures.genus) + ", area " + rounded(measures.area) + ", volume " +
-         rounded(measures.volume);
+         std::to_string(measures.genus) + ", area " + rounded(measures.area) + ' ' +
+         unit_word(unit) + "^2, volume " + rounded(measures.volume) + ' ' + unit_word(unit) + "^3";
 }
 
 }  // namespace loft::app

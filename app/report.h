@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -30,8 +31,11 @@ struct StackSize {
 [[nodiscard]] std::string grouped(std::size_t number);
 /// Four significant digits, for people.
 [[nodiscard]] std::string rounded(double number);
-/// `1,234 triangles, 619 vertices, 1 component, genus 0, area 12.3, volume 4.56`
-[[nodiscard]] std::string describe(const Measures& measures);
+/// `1,234 triangles, 619 vertices, 1 component, genus 0, area 12.3 mm^2, volume 4.56 mm^3`; `unit`
+/// is a name that metres_per_unit() knows; a number of metres, or nothing, is called `unit`.
+[[nodiscard]] std::string describe(const Measures& measures, std::string_view unit);
+/// What unit_names calls it, for people.
+[[nodiscard]] std::string unit_word(std::string_view unit);
 /// `smallest angles: least 1.2, 5th percentile 12.3, median 34.5 degrees; worst aspect 56.7`
 [[nodiscard]] std::string describe(const Angles& angles);
 

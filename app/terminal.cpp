@@ -67,8 +67,16 @@ void Terminal::show_progress(std::string_view activity, double fraction) {
   bar.append(filled, '#').append(width - filled, ' ').append("] ");
   bar.append(std::to_string(static_cast<int>(part * 100))).append("% ").append(activity);
   bar += time_left(part);
-  if (bar == bar_) return;
-  bar_ = std::move(bar);
+  draw(std::move(bar));
+}
+
+void Terminal::show_count(std::string_view line) {
+  if (has_bar_) draw(std::string(line));
+}
+
+void Terminal::draw(std::string line) {
+  if (line == bar_) return;
+  bar_ = std::move(line);
   std::cerr << clear_line << bar_ << std::flush;
 }
 

@@ -25,10 +25,14 @@ class Terminal {
   /// Draws the bar, from 0 to 1, and about how long it will take, if that has changed;
   /// clear_progress() takes it away, and what comes then is another task.
   void show_progress(std::string_view activity, double fraction);
+  /// Draws a line in its place that counts what has no end to measure by.
+  void show_count(std::string_view line);
+  [[nodiscard]] bool shows_progress() const { return has_bar_; }
   void clear_progress();
 
  private:
   [[nodiscard]] std::string time_left(double fraction) const;
+  void draw(std::string line);
   void print(std::string_view colour, std::string_view prefix, std::string_view line);
 
   bool quiet_;

@@ -60,7 +60,9 @@ using ConstraintId = Id<ConstraintTag>;
 
 }  // namespace loft::cdt
 
+/// @cond The reference has no room for what is in std.
 template <class Tag>
 struct std::hash<loft::cdt::Id<Tag>> {
   std::size_t operator()(loft::cdt::Id<Tag> id) const noexcept { return id.index(); }
 };
+/// @endcond

@@ -35,11 +35,12 @@ planar        io/planar/*                    bytes
 session       io/session/*                   stacks
 io            io/{meshes,polylines,slices,stack_file,surfaces,triangulations}     gltf planar session
 
-words         app/{descriptors,exit_code,interrupt,json,memory,overwriting,place,report,stopwatch,terminal,unit}  io
+words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,terminal,unit}  io
 capture       app/capture/*                  words
 server        app/server/*                   capture
 commands      app/commands/*                 server
-app           app/main                       commands
+options       app/options/*                  commands
+app           app/main                       options
 '
 
 # All #include lines of a folder, as file:line:#include "header", without blanks.

@@ -52,7 +52,20 @@ endfunction()
 test_consumer(find_package solid -DCMAKE_PREFIX_PATH=${prefix})
 test_consumer(subdirectory plane -DLOFT_FOLDER=${root})
 test_consumer(headers all_headers -DCMAKE_PREFIX_PATH=${prefix})
-set_tests_properties(install.find_package install.headers PROPERTIES FIXTURES_REQUIRED installed)
+test_consumer(pkg_config solid -DCMAKE_PREFIX_PATH=${prefix} -DLOFT_PKG_CONFIG=ON)
+set_tests_properties(install.find_package install.headers install.pkg_config PROPERTIES FIXTURES_REQUIRED installed)
+
+# The manual page, the completions and the licence are where they are looked for, and right.
+if(TARGET loft_documents)
+  add_test(NAME install.documents COMMAND sh ${root}/tests/install/documents.sh ${prefix})
+  set_tests_properties(install.documents PROPERTIES FIXTURES_REQUIRED installed LABELS install)
+endif()
+
+# The reference of the public headers is made without a warning.
+if(TARGET docs)
+  add_test(NAME style.docs COMMAND ${CMAKE_COMMAND} --build ${build} --target docs)
+  set_tests_properties(style.docs PROPERTIES LABELS style)
+endif()
 
 # The generated stacks in samples/data are what make_stacks makes.
 if(TARGET make_stacks)

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "app/commands/commands.h"
+#include "app/commands/each_file.h"
 #include "app/commands/fidelity.h"
 #include "app/json.h"
 #include "app/report.h"
@@ -62,7 +63,7 @@ void print_contacts(const Contacts& contacts) {
 void print_verdict(const std::string& name, const Verdict& verdict) {
   std::cout << name << (verdict.label.empty() ? "" : " '" + verdict.label + "'")
             << (verdict.faults.empty() ? ": a valid solid\n" : ": not a valid solid\n");
-  std::cout << "  " << describe(verdict.measures) << '\n';
+  std::cout << "  " << describe(verdict.measures, "") << '\n';
   print_contacts(verdict.contacts);
   for (const auto& [fault, findings] : verdict.faults) {
     std::cout << "  " << loft::name(fault) << ": " << grouped(findings.size()) << ", first at"
@@ -88,12 +89,8 @@ void print_fidelity(const std::string& name, const Fidelity& fidelity, bool is_e
 /// The object that `loft check --json` prints: schema "loft-check", schema_version 1, mesh, valid,
 /// parts (label, valid, counts and measures, touching: points and edges, faults by name), stack
 /// (name, counts). Faces that cross are the fault self_intersection; touching is none.
-Json to_json(const CheckCommand& command, const std::vector<Verdict>& verdicts,
-             const std::optional<Fidelity>& fidelity) {
-  Json json;
-  json["schema"] = "loft-check";
-  json["schema_version"] = 1;
-  json["mesh"] = command.mesh.string();
+void add_verdicts(Json& json, const CheckCommand& command, const std::vector<Verdict>& verdicts,
+                  const std::optional<Fidelity>& fidelity) {
   json["valid"] = std::ranges::all_of(verdicts, [](const Verdict& v) { return v.faults.empty(); });
   json["parts"] = Json::array();
   for (const Verdict& verdict : verdicts) {
@@ -108,34 +105,47 @@ Json to_json(const CheckCommand& command, const std::vector<Verdict>& verdicts,
     }
     json["parts"].push_back(std::move(part));
   }
-  if (!fidelity) return json;
+  if (!fidelity) return;
   json["stack"] = {
       {"name", command.stack->string()}, {"complete", fidelity->is_complete()},
       {"vertices", fidelity->vertices},  {"missing_vertices", fidelity->missing_vertices},
       {"edges", fidelity->edges},        {"missing_edges", fidelity->missing_edges}};
-  return json;
 }
 
 }  // namespace
 
-ExitCode run(const CheckCommand& command) {
-  const std::vector<io::LabelledMesh> meshes = io::read_meshes(command.mesh);
+namespace {
+
+ExitCode check_file(const CheckCommand& command, const std::filesystem::path& file,
+                    const std::vector<Slice>& stack, Json& json) {
+  const std::vector<io::LabelledMesh> meshes = io::read_meshes(file);
   std::optional<Fidelity> fidelity;
-  if (command.stack) fidelity = compare(io::read_slices(*command.stack), meshes);
+  if (command.stack) fidelity = compare(stack, meshes);
   const std::vector<Verdict> verdicts = judge(meshes);
 
   if (command.json) {
-    std::cout << print(to_json(command, verdicts, fidelity)) << '\n';
+    add_verdicts(json, command, verdicts, fidelity);
   } else {
-    for (const Verdict& verdict : verdicts) print_verdict(command.mesh.string(), verdict);
+    for (const Verdict& verdict : verdicts) print_verdict(file.string(), verdict);
     if (fidelity) {
-      print_fidelity(command.stack->string(), *fidelity, io::keeps_coordinates(command.mesh));
+      print_fidelity(command.stack->string(), *fidelity, io::keeps_coordinates(file));
     }
   }
   const bool is_valid =
       std::ranges::all_of(verdicts, [](const Verdict& v) { return v.faults.empty(); });
   const bool is_good = is_valid && (!fidelity || fidelity->is_complete());
   return is_good ? ExitCode::ok : ExitCode::check_failed;
+}
+
+}  // namespace
+
+ExitCode run(const CheckCommand& command) {
+  std::vector<Slice> stack;
+  if (command.stack) stack = io::read_slices(*command.stack);
+  EachFile each("loft-check", "mesh", command.json);
+  return each.run(command.meshes, [&](const std::filesystem::path& file, Json& json) {
+    return check_file(command, file, stack, json);
+  });
 }
 
 }  // namespace loft::app

@@ -22,9 +22,10 @@ struct ReconstructCommand {
   std::vector<std::filesystem::path> outputs;
   Options options;
   std::optional<std::filesystem::path> links;  ///< file of link orders
-  double metres_per_unit = 0.001;
+  std::string unit = "mm";
   Memory memory = Memory::by_size;
   bool json = false;
+  bool slabs = false;  ///< in the report, too
   bool quiet = false;
 };
 
@@ -38,16 +39,16 @@ struct TriangulateCommand {
   bool quiet = false;
 };
 
-/// `loft check MESH [--stack STACK]`
+/// `loft check MESH... [--stack STACK]`
 struct CheckCommand {
-  std::filesystem::path mesh;
+  std::vector<std::filesystem::path> meshes;
   std::optional<std::filesystem::path> stack;
   bool json = false;
 };
 
-/// `loft info FILE`
+/// `loft info FILE...`
 struct InfoCommand {
-  std::filesystem::path file;
+  std::vector<std::filesystem::path> files;
   bool json = false;
 };
 

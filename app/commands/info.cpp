@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/each_file.h"
 #include "app/json.h"
 #include "app/report.h"
 #include "io/bytes/file.h"
@@ -163,7 +164,7 @@ Json to_json(const std::vector<MeshSummary>& summaries) {
 
 void print_meshes(const std::vector<MeshSummary>& summaries) {
   for (const auto& [label, measures, bounds] : summaries) {
-    std::cout << "  " << (label.empty() ? "" : "label '" + label + "': ") << describe(measures)
+    std::cout << "  " << (label.empty() ? "" : "label '" + label + "': ") << describe(measures, "")
               << "\n  " << describe(measures.angles) << '\n';
     print_bounds(bounds);
   }
@@ -172,27 +173,22 @@ void print_meshes(const std::vector<MeshSummary>& summaries) {
 }  // namespace
 
 ExitCode run(const InfoCommand& command) {
-  Json json;
-  json["schema"] = "loft-info";
-  json["schema_version"] = 1;
-  json["file"] = command.file.string();
-  const auto show = [&](const auto& summary, const auto& print_summary) {
-    if (command.json) {
-      json.update(to_json(summary));
-      std::cout << print(json) << '\n';
-    } else {
-      std::cout << command.file.string() << '\n';
+  EachFile each("loft-info", "file", command.json);
+  return each.run(command.files, [&](const std::filesystem::path& file, Json& json) {
+    const auto show = [&](const auto& summary, const auto& print_summary) {
+      if (command.json) return json.update(to_json(summary));
+      std::cout << file.string() << '\n';
       print_summary(summary);
+    };
+    if (io::is_slice_file(file)) {
+      show(summarise(io::read_slices(file)), print_stack);
+    } else if (io::is_mesh_file(file)) {
+      show(summarise(io::read_meshes(file)), print_meshes);
+    } else {
+      throw io::UnknownFormat(file, io::slice_extensions() + ' ' + io::mesh_extensions());
     }
-  };
-  if (io::is_slice_file(command.file)) {
-    show(summarise(io::read_slices(command.file)), print_stack);
-  } else if (io::is_mesh_file(command.file)) {
-    show(summarise(io::read_meshes(command.file)), print_meshes);
-  } else {
-    throw io::UnknownFormat(command.file, io::slice_extensions() + ' ' + io::mesh_extensions());
-  }
-  return ExitCode::ok;
+    return ExitCode::ok;
+  });
 }
 
 }  // namespace loft::app

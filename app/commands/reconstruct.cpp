@@ -17,6 +17,7 @@
 #include "app/place.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
+#include "app/unit.h"
 #include "io/slices.h"
 #include "io/stacks/links_json.h"
 #include "io/surfaces.h"
@@ -148,7 +149,7 @@ void warn(const ReconstructCommand& command, const PartReport& part, Terminal& t
 
 io::WriteOptions write_options(const ReconstructCommand& command) {
   io::WriteOptions options;
-  options.metres_per_unit = command.metres_per_unit;
+  options.metres_per_unit = *metres_per_unit(command.unit);
   // File names only: the same stack gives the same bytes wherever it lies.
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
   options.settings = {{"fill", name(command.options.fill)},
@@ -172,8 +173,9 @@ void write_all(const ReconstructCommand& command, const std::list<Result>& resul
 void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
   for (const PartReport& part : report.parts) {
     const std::string prefix = part.label.empty() ? "" : part.label + ": ";
-    terminal.say(prefix + describe(part.measures));
-    if (!part.repairs.empty()) terminal.say(prefix + describe(summarize(part.repairs)));
+    terminal.say(prefix + describe(part.measures, command.unit));
+    if (!part.repairs.empty())
+      terminal.say(prefix + describe(summarize(part.repairs), command.unit));
   }
   for (const path& output : command.outputs) terminal.say("wrote " + output.string());
 }
@@ -187,7 +189,7 @@ void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report
 
   Options options = command.options;
   if (command.links) options.links = io::read_links_json(*command.links, stack);
-  options.reports_slabs = command.json;
+  options.reports_slabs = command.json && command.slabs;
   std::list<Result> results = reconstruct_all(command, stack, options, terminal);
   stopwatch.lap();
   write_all(command, results);

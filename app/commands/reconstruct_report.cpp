@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/json.h"
+#include "app/unit.h"
 
 namespace loft::app {
 
@@ -32,17 +33,18 @@ CleaningSummary summarize(const std::vector<Defect>& repairs) {
   return summary;
 }
 
-std::string describe(const CleaningSummary& summary) {
+std::string describe(const CleaningSummary& summary, std::string_view unit) {
+  const std::string area_unit = ' ' + unit_word(unit) + "^2";
   std::string text = "cleaning:";
   for (const auto& [kind, count] : summary.counts)
     text += (text.back() == ':' ? " " : ", ") + grouped(count) + ' ' + kind;
   text += " in " + grouped(summary.slices.size()) +
           (summary.slices.size() == 1 ? " slice" : " slices") + "; area in question " +
-          rounded(summary.area);
+          rounded(summary.area) + area_unit;
   const auto worst = std::ranges::max_element(summary.slices, {}, &CleaningSummary::Slice::area);
   if (worst != summary.slices.end() && worst->area > 0 && summary.slices.size() > 1)
     text += ", most in slice " + std::to_string(worst->slice) + " (z = " + rounded(worst->z) +
-            "): " + rounded(worst->area);
+            "): " + rounded(worst->area) + area_unit;
   return text;
 }
 
@@ -117,7 +119,7 @@ void add_size(Json& json, const StackSize& size) {
   json["vertices_in"] = size.vertices;
 }
 
-Json to_json(const PartReport& part) {
+Json to_json(const PartReport& part, bool lists_slabs) {
   Json json;
   json["label"] = part.label;
   add_size(json, part.input);
@@ -130,6 +132,7 @@ Json to_json(const PartReport& part) {
   json["cleaning"] = to_json(summarize(part.repairs));
   json["repairs"] = Json::array();
   for (const Defect& repair : part.repairs) json["repairs"].push_back(to_json(repair));
+  if (!lists_slabs) return json;
   json["slabs"] = Json::array();
   for (const SlabReport& slab : part.slabs) json["slabs"].push_back(to_json(slab));
   return json;
@@ -152,7 +155,7 @@ Measures sum(const std::vector<PartReport>& parts) {
 }  // namespace
 
 std::string to_json(const Report& report, const ReconstructCommand& command) {
-  Json json = begin_report("loft-reconstruct", command.inputs, command.outputs);
+  Json json = begin_report("loft-reconstruct", 2, command.inputs, command.outputs);
   json["options"] = {
       {"fill", name(command.options.fill)},
       {"keyhole_width",
@@ -162,14 +165,14 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"max_shift", command.options.max_shift ? Json(*command.options.max_shift) : Json()},
       {"links", command.links ? Json(command.links->string()) : Json()},
       {"smooth", command.options.smooth},
-      {"metres_per_unit", command.metres_per_unit}};
+      {"metres_per_unit", *metres_per_unit(command.unit)}};
   for (const auto& [setting, length] : lengths(command.options)) json["options"][setting] = length;
   json["out_of_core"] = report.is_out_of_core;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;
   json["parts"] = Json::array();
-  for (const PartReport& part : report.parts) json["parts"].push_back(to_json(part));
+  for (const PartReport& part : report.parts) json["parts"].push_back(to_json(part, command.slabs));
   return print(json);
 }
 

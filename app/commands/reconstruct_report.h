@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -31,8 +32,9 @@ struct CleaningSummary {
 };
 
 [[nodiscard]] CleaningSummary summarize(const std::vector<Defect>& repairs);
-/// `cleaning: 2 overlap, 1 spike in 3 slices; area in question 4.5, most in slice 7 (z = 3.5): 4`
-[[nodiscard]] std::string describe(const CleaningSummary& summary);
+/// `cleaning: 2 overlap, 1 spike in 3 slices; area in question 4.5 mm^2, most in slice 7 (z = 3.5):
+/// 4 mm^2`
+[[nodiscard]] std::string describe(const CleaningSummary& summary, std::string_view unit);
 
 /// One reconstructed label.
 struct PartReport {
@@ -47,9 +49,10 @@ struct PartReport {
 
 [[nodiscard]] std::array<std::size_t, 4> count_kinds(const Surface& surface);
 
-/// What `loft reconstruct --json` prints, as one object with schema version 1:
+/// What `loft reconstruct --json` prints, as one object with schema version 2 (1 listed the
+/// slabs without being asked):
 ///
-///     schema "loft-reconstruct", schema_version 1, loft (version)
+///     schema "loft-reconstruct", schema_version 2, loft (version)
 ///     inputs, outputs      file names
 ///     options              fill, keyhole_width (null: by default), cap, link, max_shift (null: by
 ///                          size), links (file or null), smooth, metres_per_unit; max_edge,
@@ -61,8 +64,8 @@ struct PartReport {
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, angles, seconds, vertices_of_kind
 ///                          (contour, cleaning, crossing, steiner), cleaning (area; counts by kind;
-///                          slices: a list of slice, z, repairs, area), repairs (a list), slabs (a
-///                          list; out of core an empty one)
+///                          slices: a list of slice, z, repairs, area), repairs (a list); with
+///                          --slabs slabs (a list; out of core an empty one)
 ///
 /// angles: of the smallest one of each triangle, in degrees, the least, percentile_5 and median;
 /// worst_aspect, the longest side over the height on it, 1 where all sides are equal.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <array>
+#include <chrono>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -214,7 +215,26 @@ class Stream {
     terminal_.complain(words);
   }
 
+  /// In a terminal: how far it is, ten times a second at most.
+  void show_count() {
+    if (!terminal_.shows_progress()) return;
+    const auto now = std::chrono::steady_clock::now();
+    if (now < next_count_) return;
+    next_count_ = now + tick;
+    const std::string words = counts(capture_.status());
+    const std::lock_guard lock(words_mutex_);
+    terminal_.show_count(words);
+  }
+
+  /// `1,234 edits, 2 rejected; 1,232 slices, 98,765 triangles`
+  [[nodiscard]] std::string counts(const Json& status) const {
+    const auto count = [&](const char* key) { return grouped(status[key].get<std::size_t>()); };
+    return count("edits") + " edits, " + grouped(bad_lines_ + capture_.rejected_count()) +
+           " rejected; " + count("slices") + " slices, " + count("faces") + " triangles";
+  }
+
   void look_after_outputs() {
+    show_count();
     bool is_wanted = take_output_request();
     if (command_.every > 0 && capture_.edit_count() >= saved_edits_ + command_.every) {
       saved_edits_ = capture_.edit_count();
@@ -254,9 +274,7 @@ class Stream {
     feed_.close();
     server_.reset();
     const std::uint64_t rejected = bad_lines_ + capture_.rejected_count();
-    terminal_.say(grouped(capture_.edit_count()) + " edits, " + grouped(rejected) + " rejected; " +
-                  grouped(status["slices"].get<std::size_t>()) + " slices, " +
-                  grouped(status["faces"].get<std::size_t>()) + " triangles");
+    terminal_.say(counts(status));
     if (command_.json) print_report(status, rejected);
     if (const std::size_t count = intake_.held_count(); count > 0) {
       complain(grouped(count) + " edits were not kept; send them again");
@@ -305,6 +323,7 @@ class Stream {
   std::optional<Server> server_;
   std::uint64_t bad_lines_ = 0;
   std::uint64_t saved_edits_ = 0;
+  std::chrono::steady_clock::time_point next_count_;
   bool is_unreadable_ = false;
   Intake intake_{capture_, [this](const std::string& words) { complain(words); }};
   Saver saver_;  // looks at the capture: ends before it

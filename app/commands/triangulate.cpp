@@ -125,7 +125,7 @@ void say_summary(const TriangulateCommand& command, const Summary& summary, Term
 /// (version), inputs, outputs, the counts of the summary, seconds of each stage (read, triangulate,
 /// number, write, total). Later versions of the schema may add keys.
 std::string to_json(const Summary& summary, const TriangulateCommand& command) {
-  Json json = begin_report("loft-triangulate", command.inputs, command.outputs);
+  Json json = begin_report("loft-triangulate", 1, command.inputs, command.outputs);
   json["constraints"] = summary.constraints;
   json["points"] = summary.points;
   json["vertices"] = summary.vertices;

@@ -145,7 +145,7 @@ TEST(Loft, ReportsAsJson) {
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto report = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(report["schema"], "loft-reconstruct");
-  EXPECT_EQ(report["schema_version"], 1);
+  EXPECT_EQ(report["schema_version"], 2);
   EXPECT_EQ(report["slices"], 2);
   EXPECT_EQ(report["contours"], 4);
   EXPECT_EQ(report["vertices_in"], 40);
@@ -190,8 +190,8 @@ TEST(Loft, ReportsLinks) {
   static_cast<void>(folder.write("links.ndjson",
                                  "{\"from\": [1, 0], \"to\": [2, 1], \"link\": true}\n"
                                  "{\"from\": [1, 0], \"to\": [2, 0], \"link\": false}\n"));
-  const Outcome outcome =
-      run(folder, "reconstruct in.ndjson -o a.ply --json --links links.ndjson --max-shift 3");
+  const Outcome outcome = run(
+      folder, "reconstruct in.ndjson -o a.ply --json --slabs --links links.ndjson --max-shift 3");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto report = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(report["options"]["link"], "auto");

@@ -4,17 +4,22 @@
 #include <gtest/gtest.h>
 #include <tiny_gltf.h>
 
+#include <array>
 #include <cmath>
 #include <cstring>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
 
+#include "io/gltf/label_colour.h"
 #include "io/gltf/shading.h"
+#include "io/gltf/slab_glb.h"
 #include "io/meshes.h"
 #include "io/meshes/seam.h"
 #include "io/surfaces.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/reconstruction.h"
 #include "tests/io/gltf/glb.h"
 #include "tests/io/shapes.h"
 
@@ -151,6 +156,48 @@ TEST(Gltf, NamesColoursAndNotes) {
   EXPECT_EQ(extras.Get("metres_per_unit").GetNumberAsDouble(), 0.5);
   EXPECT_EQ(extras.Get("sources").Get(0).Get<std::string>(), "stack.ndjson");
   EXPECT_EQ(extras.Get("settings").Get("fill").Get<std::string>(), "evenodd");
+}
+
+TEST(Gltf, ALabelKeepsItsColourWhateverOthersThereAre) {
+  const Surface surface = prism(3);
+  const auto colour = [](const tinygltf::Model& model, std::size_t i) {
+    return model.materials[i].pbrMetallicRoughness.baseColorFactor;
+  };
+  const auto alone = load({{"lung", &surface}});
+  const auto among = load({{"heart", &surface}, {"", &surface}, {"lung", &surface}});
+  EXPECT_EQ(colour(alone, 0), colour(among, 2));
+  const auto unlabelled = load({{"", &surface}});
+  EXPECT_EQ(colour(unlabelled, 0), colour(among, 1));
+
+  Reconstruction live;
+  live.insert({0, {{{{0, 0}, {1, 0}, {0, 1}}, ""}}});
+  live.insert({1, {{{{0, 0}, {1, 0}, {0, 1}}, ""}}});
+  const auto slab = testing::load_glb(slab_glb(live.snapshot(), 0, {.label = "lung"}));
+  EXPECT_EQ(colour(slab, 0), colour(alone, 0));
+}
+
+TEST(Gltf, FormatsThatCannotHoldANameDoNotChangeItsColour) {
+  EXPECT_EQ(label_colour("a\tb"), label_colour("a_b"));
+  EXPECT_EQ(label_colour("a\xe9"), label_colour("a?"));
+  EXPECT_EQ(label_colour(""), label_colour("surface"));
+}
+
+TEST(Gltf, ColoursOfLabelsAreToldApart) {
+  std::set<std::array<double, 3>> colours;
+  std::array<int, 6> hues{};
+  for (int i = 0; i < 600; ++i) {
+    const auto [red, green, blue] = label_colour("label_" + std::to_string(i));
+    EXPECT_TRUE(colours.insert({red, green, blue}).second) << i;
+    for (const double channel : {red, green, blue}) {
+      EXPECT_GT(channel, 0);
+      EXPECT_LT(channel, 1);
+    }
+    const bool is_red = red >= green && red >= blue;
+    const bool is_green = !is_red && green >= blue;
+    const bool rises = is_red ? green > blue : is_green ? blue > red : red > green;
+    ++hues[(is_red ? 0U : is_green ? 2U : 4U) + (rises ? 1U : 0U)];
+  }
+  for (const int count : hues) EXPECT_GT(count, 60);  // 100 if they were spread evenly
 }
 
 TEST(Gltf, NamesThatAreNotUtf8AreReplaced) {

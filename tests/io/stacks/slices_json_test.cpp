@@ -65,7 +65,7 @@ TEST(SlicesJson, IgnoresWhatDoesNoHarm) {
 TEST(SlicesJson, KeysThatAreNearNoneOfOursAreIgnored) {
   EXPECT_EQ(
       problem(R"({"z":2,"contours":[],"x":1,"colours":1,"spacing":2,"label":"a","labels":[]})"),
-      "no problem");
+      "nothing");
 }
 
 TEST(SlicesJson, KeepsSmallContoursAndEqualHeights) {

@@ -1,0 +1,420 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/command_line.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iostream>
+#include <string>
+#include <utility>
+
+#include "app/commands/out_of_core.h"
+#include "app/options/complaints.h"
+#include "app/options/completion.h"
+#include "app/options/help.h"
+#include "app/options/manual.h"
+#include "app/options/tree.h"
+#include "app/unit.h"
+#include "cdt/triangulation.h"
+#include "io/meshes.h"
+#include "io/polylines.h"
+#include "io/slices.h"
+#include "io/surfaces.h"
+#include "io/triangulations.h"
+#include "io/version.h"
+
+namespace loft::app {
+
+namespace {
+
+std::string footer() {
+  return "Examples:\n"
+         "  loft reconstruct skull.ndjson -o skull.glb\n"
+         "  loft reconstruct a.ndjson b.ndjson -o both.ply -o both.glb --unit um --json\n"
+         "  loft check skull.ply --stack skull.ndjson\n"
+         "  loft info skull.ndjson\n"
+         "  loft stream capture.ndjson --follow --session capture.session --view\n"
+         "  loft triangulate world.geojson -o world.svg\n"
+         "\n"
+         "Stacks: NDJSON, a slice a line, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}; a "
+         "contour\n"
+         "is closed without repeating its first point; optional \"labels\": a name a contour, "
+         "each\n"
+         "label is reconstructed on its own. '-' reads standard input.\n"
+         "  stacks " +
+         loft::io::slice_extensions() + "; surfaces out " + loft::io::surface_extensions() +
+         "\n"
+         "Polylines: GeoJSON, or text with a line 'n closed' (0 or 1) for each and n lines 'x y'.\n"
+         "  polylines " +
+         loft::io::polyline_extensions() + "; triangulations out " +
+         loft::io::triangulation_extensions() +
+         "\n"
+         "\n"
+         "Exit codes: 0 ok, 1 check failed, 2 usage, 3 bad input, 4 cannot write, 130 "
+         "interrupted.\n"
+         "Results go to stdout, words to stderr. NO_COLOR is respected.";
+}
+
+/// Options for smaller or fewer triangles.
+void add_triangle_options(CLI::App& sub, loft::Options& options) {
+  CLI::Option* max_edge =
+      sub.add_option("--max-edge", options.max_edge,
+                     "Split edges between slices that are longer; contour edges stay")
+          ->type_name("LENGTH")
+          ->check(CLI::Validator(complain_of_length, ""));
+  CLI::Option* target_edge =
+      sub.add_option("--target-edge", options.target_edge,
+                     "Bring edges between slices near this length, with well-shaped triangles; "
+                     "contour edges stay")
+          ->type_name("LENGTH")
+          ->check(CLI::Validator(complain_of_length, ""));
+  CLI::Option* simplify =
+      sub.add_option("--simplify", options.simplify,
+                     "Remove vertices as long as the surface, contours included, moves by no more "
+                     "than this; 0 removes only what changes nothing")
+          ->type_name("TOLERANCE")
+          ->check(CLI::Validator(complain_of_distance, ""));
+  max_edge->excludes(target_edge)->excludes(simplify);
+  target_edge->excludes(simplify);
+}
+
+/// What is inside, and how the ends are closed.
+void add_slice_options(CLI::App& sub, loft::Options& options) {
+  sub.add_option_function<std::string>(
+         "--fill",
+         [&options](const std::string& fill) {
+           options.fill = fill == "nonzero"   ? loft::Fill::nonzero
+                          : fill == "evenodd" ? loft::Fill::even_odd
+                                              : loft::Fill::keyhole_aware;
+         },
+         "What is inside: nested contours are holes (evenodd, default), overlapping ones make "
+         "their union (nonzero), or as evenodd with holes that a channel joins to their outline "
+         "taken out (keyhole-aware)")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"evenodd", "nonzero", "keyhole-aware"}));
+  sub.add_option("--keyhole-width", options.keyhole_width,
+                 "How wide such a channel may be, in the unit of the input (default 1/1000 of "
+                 "the contour's diagonal)")
+      ->type_name("LENGTH")
+      ->check(CLI::Validator(complain_of_distance, ""));
+  sub.add_option_function<std::string>(
+         "--cap",
+         [&options](const std::string& cap) {
+           options.cap = cap == "flat"   ? loft::Cap::flat
+                         : cap == "dome" ? loft::Cap::dome
+                                         : loft::Cap::open;
+         },
+         "What closes the first and last slice (default flat)")
+      ->type_name("CAP")
+      ->check(CLI::IsMember({"flat", "dome", "open"}));
+}
+
+/// How the surface goes from slice to slice.
+void add_slab_options(CLI::App& sub, loft::Options& options) {
+  sub.add_option_function<std::string>(
+         "--link",
+         [&options](const std::string& link) {
+           options.link = link == "auto"      ? loft::LinkRule::automatic
+                          : link == "overlap" ? loft::LinkRule::overlap
+                                              : loft::LinkRule::none;
+         },
+         "Which parts of neighbouring slices are joined: those that overlap, and those that belong "
+         "together by where they lie (auto, default); those that overlap; none, but for --links")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"auto", "overlap", "none"}));
+  sub.add_option("--max-shift", options.max_shift,
+                 "The farthest that --link auto moves a part sideways between two slices, in the "
+                 "unit of the input; by the parts' size where not given")
+      ->type_name("DISTANCE")
+      ->check(CLI::Validator(complain_of_distance, ""));
+  sub.add_flag("--smooth", options.smooth,
+               "Bend the surface between the slices as their neighbours suggest; it still passes "
+               "through every contour");
+}
+
+/// Adds `loft reconstruct`; the command is ready when the line has been parsed.
+CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
+  CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
+  sub->add_option("IN", command.inputs, "Stack files, or - for standard input")->required();
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, " + loft::io::surface_extensions() + "; may be repeated")
+      ->required()
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  add_slice_options(*sub, command.options);
+  sub->add_option("--threads", command.options.threads,
+                  "Threads that work at the same time; 0 (default): as many as the machine has")
+      ->type_name("N")
+      ->check(CLI::Range(0U, 1024U));
+  const auto memory = [&command](Memory choice) {
+    return [&command, choice] { command.memory = choice; };
+  };
+  CLI::Option* const out =
+      sub->add_flag_callback("--out-of-core", memory(Memory::out_of_core),
+                             "Leave the stack in its file and work slab by slab, in little memory; "
+                             "one output, a PLY file, "
+                             "the same as otherwise. The default for inputs above " +
+                                 std::to_string(most_in_memory >> 20U) + " MiB");
+  sub->add_flag_callback("--in-memory", memory(Memory::in_memory),
+                         "Read the stack as a whole, whatever its size")
+      ->excludes(out);
+  add_slab_options(*sub, command.options);
+  sub->add_option("--links", command.links,
+                  "Contours to join or to keep apart: a line {\"from\": [slice, contour], "
+                  "\"to\": [slice, contour], \"link\": true or false} each")
+      ->type_name("FILE");
+  add_triangle_options(*sub, command.options);
+  sub->add_option("--unit", command.unit,
+                  "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
+      ->type_name("UNIT")
+      ->check(CLI::Validator(complain_of_unit, ""));
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  sub->add_flag("--slabs", command.slabs, "List all slabs and their links in it");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  return sub;
+}
+
+/// Options of commands that serve.
+template <class Command>
+void add_address_options(CLI::App& sub, Command& command) {
+  sub.add_option("--host", command.host,
+                 "Address to listen on (default 127.0.0.1: this machine only; 0.0.0.0: anyone who "
+                 "can reach it)")
+      ->type_name("ADDRESS");
+  sub.add_option("--unit", command.unit,
+                 "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
+      ->type_name("UNIT")
+      ->check(CLI::Validator(complain_of_unit, ""));
+  sub.add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+}
+
+/// Adds `loft stream`; the command is ready when the line has been parsed.
+CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "stream", "Keep a surface up to date while its slices come, change and go");
+  sub->add_option("IN", command.input, "File of edits, a line each; - or nothing: standard input");
+  sub->add_flag("--follow", command.follows, "Wait for more at the end of IN: it grows");
+  sub->add_flag_callback(
+      "--no-input", [&command] { command.has_input = false; },
+      "Read no edits but those that are posted");
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, " + loft::io::surface_extensions() +
+                      "; written at the end and on SIGUSR1; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_option("--every", command.every, "Write the outputs after every N edits, too")
+      ->type_name("N")
+      ->check(CLI::Range(0, 1'000'000'000));
+  sub->add_option("--replay", command.replay,
+                  "GLB file, written at the end: an animation in which the slabs appear as they "
+                  "came; of a session, too")
+      ->type_name("OUT.glb");
+  sub->add_option("--replay-rate", command.replay_rate, "Edits a second in it (default 20)")
+      ->type_name("N")
+      ->check(CLI::Validator(complain_of_rate, ""));
+  sub->add_option("--session", command.session,
+                  "Keep every edit in this file before it is acknowledged; if it is there, go on "
+                  "from it, and in IN where it was")
+      ->type_name("FILE");
+  sub->add_flag_callback(
+      "--view", [&command] { command.serves = true; },
+      "Serve a page that shows the surface as it grows, and take edits by HTTP");
+  sub->add_option_function<int>(
+         "--port",
+         [&command](int port) {
+           command.port = port;
+           command.serves = true;
+         },
+         "Take edits by HTTP on this port (default 8337 with --view; 0: any that is free)")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535));
+  sub->add_option("--max-body", command.most_megabytes,
+                  "Largest body of a request, in MiB (default 16)")
+      ->type_name("MIB")
+      ->check(CLI::Range(1U, 1024U));
+  add_slice_options(*sub, command.options);
+  add_slab_options(*sub, command.options);
+  add_address_options(*sub, command);
+  sub->add_flag("--strict", command.strict, "Exit with 3 if an edit was bad");
+  sub->add_flag("--json", command.json, "Print a report as one JSON object at the end");
+  sub->footer(
+      "An edit is a slice as in a stack file, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}, "
+      "with\n\"op\": \"replace\" for one that is there already, or {\"op\": \"remove\", "
+      "\"z\": 1.5}.\nBad ones are reported and left out.\n\n"
+      "Examples:\n"
+      "  scanner | loft stream -o part.glb\n"
+      "  loft stream capture.ndjson --follow --session capture.session --view\n"
+      "  loft stream --no-input --port 8337 --session capture.session -o part.ply\n"
+      "  curl --data-binary @slices.ndjson http://127.0.0.1:8337/slices");
+  return sub;
+}
+
+/// Adds `loft view`; the command is ready when the line has been parsed.
+CLI::App* add_view(CLI::App& app, ViewCommand& command) {
+  CLI::App* sub = app.add_subcommand("view", "Show a mesh or the session of a stream in a browser");
+  sub->add_option("FILE", command.file,
+                  "Mesh file, " + loft::io::mesh_extensions() + ", or session file")
+      ->required();
+  sub->add_option("--port", command.port, "Port to serve on (default 8337; 0: any that is free)")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535));
+  add_address_options(*sub, command);
+  sub->footer(
+      "Open the address that it prints; Ctrl-C ends it.\n\n"
+      "Examples:\n"
+      "  loft view skull.ply\n"
+      "  loft view capture.session --port 0");
+  return sub;
+}
+
+/// Adds `loft session`; the command is ready when the line has been parsed.
+CLI::App* add_session(CLI::App& app, SessionCommand& command) {
+  CLI::App* sub = app.add_subcommand("session", "Look into the session of a stream");
+  sub->require_subcommand(1);
+  const auto add = [&](const char* name, const char* what, SessionCommand::What kind) {
+    CLI::App* one = sub->add_subcommand(name, what);
+    one->add_option("FILE", command.file, "Session file")->required();
+    one->callback([&command, kind] { command.what = kind; });
+    one->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+    return one;
+  };
+  add("list", "Show its edits, a line each, and how it was begun", SessionCommand::What::list)
+      ->add_flag("--json", command.json, "Print one JSON object");
+  CLI::App* exporting = add("export", "Write the slices that its edits have left as a stack file",
+                            SessionCommand::What::export_slices);
+  exporting->add_option("-o,--output", command.output, "Output file; - (default): standard output")
+      ->type_name("OUT");
+  exporting->add_flag("--edits", command.edits, "Write the edits as they came instead");
+  add("verify", "Check the file and every edit in it; exit code 1 if it is damaged",
+      SessionCommand::What::verify)
+      ->add_flag("--json", command.json, "Print one JSON object");
+  return sub;
+}
+
+/// Adds `loft triangulate`; the command is ready when the line has been parsed.
+CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "triangulate", "Make the constrained Delaunay triangulation of polylines and polygons");
+  sub->add_option("IN", command.inputs, "Polyline files, or - for standard input")->required();
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, " + loft::io::triangulation_extensions() + "; may be repeated")
+      ->required()
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_option("--epsilon", command.epsilon,
+                  "Points and polylines closer than that become one, default 0")
+      ->type_name("DISTANCE")
+      ->check(CLI::Range(0.0, loft::cdt::Triangulation::largest_coordinate));
+  sub->add_flag_callback(
+      "--no-fill", [&command] { command.drawing.has_fill = false; },
+      "Leave regions uncoloured (SVG)");
+  sub->add_flag_callback(
+      "--no-edges", [&command] { command.drawing.has_edges = false; },
+      "Draw only the edges that lie on a polyline (SVG)");
+  sub->add_option("--width", command.drawing.width, "Width in pixels, default 1200 (SVG)")
+      ->type_name("PIXELS")
+      ->check(CLI::Range(10.0, 100'000.0));
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  return sub;
+}
+
+/// Adds `loft check`; the command is ready when the line has been parsed.
+CLI::App* add_check(CLI::App& app, CheckCommand& command) {
+  CLI::App* sub =
+      app.add_subcommand("check",
+                         "Tell whether meshes bound valid solids: closed, manifold, oriented, no "
+                         "degenerate face, no self-intersection; exit code 1 if one does not");
+  sub->add_option("MESH", command.meshes, "Mesh files, " + loft::io::mesh_extensions())->required();
+  sub->add_option("--stack", command.stack,
+                  "Also: is every contour vertex and edge of this stack in each mesh, exactly?")
+      ->type_name("FILE");
+  sub->add_flag("--json", command.json, "Print the result as one JSON object; a list of several");
+  return sub;
+}
+
+/// Adds `loft info`; the command is ready when the line has been parsed.
+CLI::App* add_info(CLI::App& app, InfoCommand& command) {
+  CLI::App* sub = app.add_subcommand("info", "Show counts, bounds, gaps and labels of files");
+  sub->add_option("FILE", command.files, "Stacks or meshes")->required();
+  sub->add_flag("--json", command.json, "Print the result as one JSON object; a list of several");
+  return sub;
+}
+
+/// Adds `loft help`, and what the build makes the installed documents with.
+CLI::App* add_help(CLI::App& app, std::vector<std::string>& words) {
+  CLI::App* sub = app.add_subcommand("help", "Show what a command does, and its options");
+  sub->add_option("COMMAND", words, "A command, as reconstruct or session list; nothing: all");
+  return sub;
+}
+
+CLI::App* add_completion(CLI::App& app, std::string& shell) {
+  CLI::App* sub = app.add_subcommand("completion", "Print what completes command lines in a shell");
+  sub->add_option("SHELL", shell, "bash, zsh or fish")
+      ->required()
+      ->check(CLI::IsMember({"bash", "zsh", "fish"}));
+  return sub->group("");
+}
+
+CLI::App* add_man(CLI::App& app) {
+  return app.add_subcommand("man", "Print the manual page")->group("");
+}
+
+/// Notes which of a session's settings the command line names, and what makes no sense in it.
+void look_at_options(const CLI::App& sub, StreamCommand& command) {
+  for (const char* setting :
+       {"fill", "keyhole_width", "cap", "link", "max_shift", "smooth", "unit"}) {
+    std::string option = std::string("--") + setting;
+    std::ranges::replace(option, '_', '-');
+    if (sub.count(option) > 0) command.given.insert(setting);
+  }
+  const bool has_file = command.input && *command.input != "-";
+  if (!command.has_input && command.input)
+    throw UsageError("--no-input and a file of edits exclude each other");
+  if (!command.has_input && !command.serves && !command.session)
+    throw UsageError("nothing to do: --no-input needs --port, --view or --session");
+  if (command.follows && !has_file) throw UsageError("--follow needs a file of edits");
+  if (sub.count("--host") > 0 && !command.serves)
+    throw UsageError("--host needs --port or --view: nothing would listen there");
+}
+
+}  // namespace
+
+CommandLine::CommandLine()
+    : app_("Closed surfaces from stacks of planar contours, and triangulations of the plane",
+           "loft") {
+  app_.set_version_flag("--version", std::string(loft::io::generator()),
+                        "Print the version and exit");
+  app_.footer(footer());
+  app_.require_subcommand(1);
+  const auto when = [this](CLI::App* sub, std::function<ExitCode()> run) {
+    runs_.emplace_back(sub, std::move(run));
+  };
+  when(add_reconstruct(app_, reconstruct_), [this] { return app::run(reconstruct_); });
+  CLI::App* const stream = add_stream(app_, stream_);
+  when(stream, [this, stream] {
+    look_at_options(*stream, stream_);
+    return app::run(stream_);
+  });
+  when(add_view(app_, view_), [this] { return app::run(view_); });
+  when(add_session(app_, session_), [this] { return app::run(session_); });
+  when(add_triangulate(app_, triangulate_), [this] { return app::run(triangulate_); });
+  when(add_check(app_, check_), [this] { return app::run(check_); });
+  when(add_info(app_, info_), [this] { return app::run(info_); });
+  when(add_help(app_, help_), [this] { return show_help(app_, help_); });
+  when(add_completion(app_, shell_), [this] {
+    std::cout << completion(tree_of(app_), shell_);
+    return ExitCode::ok;
+  });
+  when(add_man(app_), [this] {
+    std::cout << manual(tree_of(app_), loft::io::generator());
+    return ExitCode::ok;
+  });
+}
+
+ExitCode CommandLine::run() const {
+  for (const auto& [sub, run] : runs_)
+    if (sub->parsed()) return run();
+  return ExitCode::usage;
+}
+
+}  // namespace loft::app

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <string>
+
+namespace loft::app {
+
+/// Checks of what an option is given: the text says what is wrong, empty if nothing is.
+[[nodiscard]] std::string complain_of_unit(const std::string& unit);
+[[nodiscard]] std::string complain_of_length(const std::string& text);
+[[nodiscard]] std::string complain_of_distance(const std::string& text);
+/// Edits a second, within what glTF's seconds, which are floats, tell apart.
+[[nodiscard]] std::string complain_of_rate(const std::string& text);
+
+}  // namespace loft::app
