@@ -59,10 +59,8 @@ using SegmentId = Id<SegmentTag>;
 using ConstraintId = Id<ConstraintTag>;
 
 }  // namespace loft::cdt
-
-/// @cond The reference has no room for what is in std.
+/// @cond Doxygen stumbles over specialisations of what it has not seen.
 template <class Tag>
 struct std::hash<loft::cdt::Id<Tag>> {
   std::size_t operator()(loft::cdt::Id<Tag> id) const noexcept { return id.index(); }
-};
-/// @endcond
+};  /// @endcond

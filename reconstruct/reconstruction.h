@@ -38,8 +38,7 @@ struct LiveStack;
 /// Not for several threads at once; snapshots may be used in any thread.
 class Reconstruction {
  public:
-  /// Throws std::invalid_argument for what needs the whole stack: Options::simplify and
-  /// Options::links.
+  /// Throws std::invalid_argument for what needs the whole stack: Options::simplify, its links.
   explicit Reconstruction(Options options = {});
   ~Reconstruction();
   Reconstruction(Reconstruction&&) noexcept;
