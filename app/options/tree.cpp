@@ -53,7 +53,8 @@ CommandNote note_of(const CLI::App& app, const std::string& name) {
     if (!option->get_group().empty()) note.options.push_back(note_of(*option));
   for (OptionNote& option : note.options)
     if (option.argument == "COMMAND") option.choices = command_names(*app.get_parent());
-  std::ranges::stable_partition(note.options, &OptionNote::is_positional);
+  std::stable_partition(note.options.begin(), note.options.end(),
+                        [](const OptionNote& option) { return option.is_positional(); });
   for (const CLI::App* sub : app.get_subcommands([](const CLI::App*) { return true; }))
     if (!sub->get_group().empty())
       note.commands.push_back(note_of(*sub, name + (name.empty() ? "" : " ") + sub->get_name()));

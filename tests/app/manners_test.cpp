@@ -133,7 +133,8 @@ TEST(Manners, ReportsListSlabsOnlyWhereThatIsAsked) {
 /// The colours of a glTF file's labels.
 std::map<std::string, json> colours(const Folder& folder, const std::string& file) {
   std::map<std::string, json> colours;
-  for (const json& material : json::parse(content(folder / file))["materials"])
+  const json model = json::parse(content(folder / file));
+  for (const json& material : model["materials"])
     colours[material["name"]] = material["pbrMetallicRoughness"]["baseColorFactor"];
   return colours;
 }
