@@ -43,7 +43,7 @@ std::string no_command(const CLI::App& app, const std::string& path, const std::
   std::vector<std::string> known;
   for (const CLI::App* command : commands_of(app))
     if (!command->get_group().empty()) known.push_back(command->get_name());
-  return io::in_quotes(word) + " is no command of " + path + "; " +
+  return io::in_quotes(word) + " is no subcommand of " + path + "; " +
          suggestion(word, known, "'loft help' lists them");
 }
 

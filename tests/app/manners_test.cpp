@@ -23,12 +23,12 @@ using ::testing::StartsWith;
 TEST(Manners, MisspeltCommandsAndOptionsNameTheNearest) {
   const std::map<std::string, std::string> cases{
       {"recnstruct in.ndjson -o a.ply",
-       "error: 'recnstruct' is no command of loft; did you mean 'reconstruct'?\n"},
-      {"recon", "error: 'recon' is no command of loft; did you mean 'reconstruct'?\n"},
-      {"s", "error: 's' is no command of loft; 'loft help' lists them\n"},
-      {"triang", "error: 'triang' is no command of loft; did you mean 'triangulate'?\n"},
+       "error: 'recnstruct' is no subcommand of loft; did you mean 'reconstruct'?\n"},
+      {"recon", "error: 'recon' is no subcommand of loft; did you mean 'reconstruct'?\n"},
+      {"s", "error: 's' is no subcommand of loft; 'loft help' lists them\n"},
+      {"triang", "error: 'triang' is no subcommand of loft; did you mean 'triangulate'?\n"},
       {"session exprot a.session",
-       "error: 'exprot' is no command of loft session; did you mean 'export'?\n"},
+       "error: 'exprot' is no subcommand of loft session; did you mean 'export'?\n"},
       {"reconstruct in.ndjson -o a.ply --smoth",
        "error: '--smoth' is no option of loft reconstruct; did you mean '--smooth'?\n"},
       {"reconstruct in.ndjson -o a.ply --keyhole_width=1",
@@ -36,7 +36,7 @@ TEST(Manners, MisspeltCommandsAndOptionsNameTheNearest) {
        "'--keyhole-width'?\n"},
       {"check a.ply --frobnicate",
        "error: '--frobnicate' is no option of loft check; 'loft help check' lists them\n"},
-      {"help chek", "error: 'chek' is no command of loft; did you mean 'check'?\n"},
+      {"help chek", "error: 'chek' is no subcommand of loft; did you mean 'check'?\n"},
   };
   const Folder folder;
   for (const auto& [arguments, words] : cases) {
