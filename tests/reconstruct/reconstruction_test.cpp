@@ -247,7 +247,8 @@ TEST(Reconstruction, BadEditsSayWhatIsWrong) {
   const auto bad = Slice{2, {{{{0, 0}, {NAN, 1}, {2, INFINITY}}, ""}}};
   EXPECT_THAT([&] { live.insert(bad); }, ThrowsMessage<InputError>(testing::AllOf(
                                              HasSubstr("point 1"), HasSubstr("point 2"))));
-  EXPECT_THAT([&] { live.remove(3); }, ThrowsMessage<InputError>(HasSubstr("no slice at z = 3")));
+  EXPECT_THAT([&] { live.remove(3); },
+              ThrowsMessage<InputError>(HasSubstr("z = 3; the nearest is at z = 1")));
   EXPECT_THAT(
       [&] {
         live.replace(3, Slice{1, {}});
