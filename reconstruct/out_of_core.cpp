@@ -28,26 +28,32 @@ namespace {
 /// enough to take little memory.
 constexpr std::size_t group_size = std::size_t{1} << 17U;
 
-/// The regions of a stack in the order of their heights, without the empty ones at both ends; those
-/// that are no longer needed are forgotten.
+/// The regions of a stack in the order of their heights, of the empty ones at both ends only the
+/// nearest; those that are no longer needed are forgotten.
 class Regions {
  public:
   explicit Regions(Cap cap) : cap_(cap) {}
 
   void add(Region region) {
-    if (!region.is_empty()) {
-      for (Region& empty : std::exchange(empty_, {})) append(std::move(empty));
-      append(std::move(region));
-      ++filled_count_;
-    } else if (bound() > 0) {
+    if (region.is_empty()) {
+      if (!has_filled_) empty_.clear();  // only the nearest one counts
       empty_.push_back(std::move(region));
+      return;
     }
+    for (Region& empty : std::exchange(empty_, {})) {
+      if (has_filled_) repairs_.push_back(empty_slice(empty));
+      append(std::move(empty));
+    }
+    has_filled_ = true;
+    append(std::move(region));
   }
 
   /// No more come.
   void end() {
-    if (filled_count_ < 2) throw too_few_slices(filled_count_ == 0 ? nullptr : &regions_.front());
-    if (cap_ == Cap::dome)
+    if (!has_filled_) throw too_few_slices(nullptr);
+    if (!empty_.empty()) append(std::move(empty_.front()));
+    if (bound() < 2) throw too_few_slices(&regions_.front());
+    if (cap_ == Cap::dome && !regions_.back().is_empty())
       regions_.push_back(beyond(regions_.back(), regions_[regions_.size() - 2]));
   }
 
@@ -64,19 +70,17 @@ class Regions {
 
  private:
   void append(Region region) {
-    if (region.is_empty()) repairs_.push_back(empty_slice(region));
     regions_.push_back(std::move(region));
-    if (cap_ == Cap::dome && bound() == 2 && !has_low_end_) {
-      has_low_end_ = true;
-      regions_.push_front(beyond(regions_[0], regions_[1]));
-    }
+    if (cap_ != Cap::dome || bound() != 2 || has_low_end_) return;
+    has_low_end_ = true;
+    if (!regions_[0].is_empty()) regions_.push_front(beyond(regions_[0], regions_[1]));
   }
 
   Cap cap_;
   bool has_low_end_ = false;
   std::deque<Region> regions_;
   std::size_t first_ = 0;
-  std::size_t filled_count_ = 0;
+  bool has_filled_ = false;
   std::vector<Region> empty_;  // above the last filled one
   std::vector<Defect> repairs_;
 };

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
@@ -30,23 +32,30 @@ std::vector<Defect> find_unusable(std::span<const Slice> slices) {
   return found;
 }
 
-/// Leaves out the empty regions at both ends; those between are where the shape is interrupted.
+/// Of the empty regions at either end the one next to a filled one stays: the shape ends before it.
+/// Those between are where it is interrupted.
 std::vector<Region> trim(std::vector<Region> regions, std::vector<Defect>& repairs) {
   const auto is_filled = [](const Region& region) { return !region.is_empty(); };
-  const auto first = std::ranges::find_if(regions, is_filled);
-  const auto last = std::find_if(regions.rbegin(), regions.rend(), is_filled).base();
+  auto first = std::ranges::find_if(regions, is_filled);
+  auto last = std::find_if(regions.rbegin(), regions.rend(), is_filled).base();
   if (first >= last) return {};
-  std::vector<Region> kept(std::make_move_iterator(first), std::make_move_iterator(last));
-  for (const Region& region : kept)
+  for (const Region& region : std::span(first, last))
     if (region.is_empty()) repairs.push_back(empty_slice(region));
-  return kept;
+  if (first != regions.begin()) --first;
+  if (last != regions.end()) ++last;
+  return {std::make_move_iterator(first), std::make_move_iterator(last)};
 }
 
+/// Rounds off the ends that no empty slice is beyond.
 void add_beyond_ends(std::vector<Region>& regions) {
-  const Region low = beyond(regions[0], regions[1]);
-  const Region high = beyond(regions[regions.size() - 1], regions[regions.size() - 2]);
-  regions.insert(regions.begin(), low);
-  regions.push_back(high);
+  const Region& bottom = regions[0];
+  const Region& top = regions.back();
+  std::optional<Region> low;
+  std::optional<Region> high;
+  if (!bottom.is_empty()) low = beyond(bottom, regions[1]);
+  if (!top.is_empty()) high = beyond(top, regions[regions.size() - 2]);
+  if (low) regions.insert(regions.begin(), std::move(*low));
+  if (high) regions.push_back(std::move(*high));
 }
 
 /// Names the slabs that no valid tiles were found for.
@@ -189,10 +198,7 @@ void refine_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
 }
 
 void check_enough(std::span<const Region> regions) {
-  const auto is_filled = [](const Region& region) { return !region.is_empty(); };
-  if (std::ranges::count_if(regions, is_filled) >= 2) return;
-  const auto only = std::ranges::find_if(regions, is_filled);
-  throw too_few_slices(only == regions.end() ? nullptr : &*only);
+  if (regions.size() < 2) throw too_few_slices(regions.empty() ? nullptr : &regions.front());
 }
 
 }  // namespace

@@ -109,8 +109,9 @@ InputError too_few_slices(const Region* only) {
     defect.z = only->z;
     defect.slice = only->slice;
     defect.message =
-        "is the only one with an outline; a surface needs two. For a flat part, give its outline a "
-        "second time at the height where it ends";
+        "is the only one with an outline, and there is no other beside it; a surface needs two. For "
+        "a flat part, give its outline a second time at the height where it ends; for one that ends "
+        "on the way, an empty slice";
   } else {
     defect.message = "no slice has an outline with an area";
   }

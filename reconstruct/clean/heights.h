@@ -37,7 +37,8 @@ struct Height {
 [[nodiscard]] Defect empty_slice(const Region& region);
 /// The warning that no tiles were found that link a region to the next one above.
 [[nodiscard]] Defect unlinked_slices(const Region& lower);
-/// What is missing where fewer than two regions have an area: none, if `only` is null.
+/// What is missing where there are not two regions, one of them with an area: `only` is the one that
+/// has, or null.
 [[nodiscard]] InputError too_few_slices(const Region* only);
 
 /// For Cap::dome: an empty region one gap beyond the end of a stack, into which it rounds off.

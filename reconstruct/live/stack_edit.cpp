@@ -80,7 +80,8 @@ class StackEdit {
       if (!gap.made) continue;
       const FrozenSlab& slab = *gap.made->frozen;
       change_.added.push_back(slab.info);
-      const bool is_interrupted = gap.lower->slice != nullptr && slab.lower->is_empty();
+      const bool is_interrupted =
+          !gap.is_first && gap.lower->slice != nullptr && slab.lower->is_empty();
       if (is_interrupted) change_.repairs.push_back(empty_slice(*slab.lower));
       if (!slab.linked->is_linked) change_.repairs.push_back(unlinked_slices(*slab.lower));
     }
@@ -229,12 +230,13 @@ class StackEdit {
     const bool is_dome = stack_.options.cap == Cap::dome;
     if (is_dome) round_off(first, last);
     std::vector<Station*> line;
-    if (is_dome && is_bottom) line.push_back(&stack_.below);
+    if (is_dome && is_bottom && !first->second.region->is_empty())
+      line.push_back(&stack_.below);
     for (auto station = from;; ++station) {
       line.push_back(&station->second);
       if (station == to) break;
     }
-    if (is_dome && is_top) line.push_back(&stack_.above);
+    if (is_dome && is_top && !last->second.region->is_empty()) line.push_back(&stack_.above);
     return {stack_, std::move(line), is_bottom, is_top};
   }
 
