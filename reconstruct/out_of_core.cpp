@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
+#include <set>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "reconstruct/clean/cleaning.h"
@@ -92,6 +94,7 @@ class Work {
       : source_(source),
         options_(options),
         sink_(sink),
+        one_label_(options.label),
         regions_(options.cap),
         linking_(options),
         memories_(thread_count(options.threads)),
@@ -99,7 +102,7 @@ class Work {
 
   OutOfCoreReport run(const Progress& progress) {
     const std::vector<double> z = usable_heights();
-    const std::vector<Height> heights = find_heights(z, repairs_);
+    const std::vector<Height> heights = find_heights(z, options_.height_tolerance, repairs_);
     const auto tell = [&](std::size_t done) {
       const double share =
           heights.empty() ? 1 : static_cast<double>(done) / static_cast<double>(heights.size());
@@ -144,6 +147,7 @@ class Work {
   [[nodiscard]] std::vector<Region> clean_group(std::span<const Height> heights) {
     std::vector<Region> cleaned(heights.size());
     std::vector<std::vector<Defect>> found(heights.size());
+    std::vector<std::set<std::string>> labels(heights.size());
     for_each_index(heights.size(), options_.threads, [&](std::size_t i, unsigned worker) {
       std::vector<Slice> slices;
       std::vector<const Slice*> parts;
@@ -153,9 +157,13 @@ class Work {
         if (auto fatal = find_unusable(slices.back(), s); !fatal.empty())
           throw InputError(std::move(fatal));
         parts.push_back(&slices.back());
+        if (!options_.label)
+          for (const Contour& contour : slices.back().contours) labels[i].insert(contour.label);
       }
       cleaned[i] = clean(heights[i], parts, options_, found[i], memories_[worker]);
     });
+    for (const auto& some : labels)
+      for (const std::string& label : some) one_label_.add(label);
     for (auto& some : found) std::ranges::move(some, std::back_inserter(repairs_));
     return cleaned;
   }
@@ -329,6 +337,7 @@ class Work {
   const SliceSource& source_;
   const Options& options_;
   SurfaceSink& sink_;
+  OneLabel one_label_;
   Regions regions_;
   std::deque<SliceShape> shapes_;  // of the regions from first_shape_ on, if they are asked for
   std::size_t first_shape_ = 0;

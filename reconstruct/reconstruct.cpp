@@ -20,6 +20,7 @@
 #include "reconstruct/shape/simplify.h"
 #include "reconstruct/shape/smooth.h"
 #include "reconstruct/tile/tiles.h"
+#include "reconstruct/usable.h"
 
 namespace loft {
 
@@ -206,6 +207,8 @@ void check_enough(std::span<const Region> regions) {
 Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_options,
                           const Progress& progress) {
   if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  OneLabel one_label(all_options.label);
+  for (const Slice& slice : slices) one_label.add(slice);
   if (const auto problems = find_bad_orders(slices, all_options.links); !problems.empty())
     throw InputError(in_lines(problems));
   Options options = all_options;
@@ -213,7 +216,7 @@ Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_opti
   std::vector<Defect> repairs;
   std::vector<double> z;
   for (const Slice& slice : slices) z.push_back(slice.z);
-  const auto heights = find_heights(z, repairs);
+  const auto heights = find_heights(z, options.height_tolerance, repairs);
   auto regions = trim(clean_all(slices, heights, options, repairs, progress), repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
