@@ -33,17 +33,16 @@ std::vector<Slice> part(int from, int to, bool has_column) {
 
 TEST(Ends, OfAPartDoNotDependOnUnrelatedParts) {
   for (const Cap cap : {Cap::flat, Cap::dome, Cap::open})
-    for (const bool smooth : {false, true})
-      for (const auto& [from, to] :
-           std::vector<std::pair<int, int>>{{2, 4}, {3, 3}, {0, 2}, {5, 6}}) {
-        const Options options{.cap = cap, .smooth = smooth};
-        const Surface alone = reconstruct(part(from, to, false), options).surface;
-        const Surface both = reconstruct(part(from, to, true), options).surface;
-        const Surface column = reconstruct(part(9, 9, true), options).surface;
-        EXPECT_EQ(alone.n_faces() + column.n_faces(), both.n_faces()) << from << " to " << to;
-        EXPECT_NEAR(volume(alone) + volume(column), volume(both), 1e-12) << from << " to " << to;
-        if (cap != Cap::open) EXPECT_TRUE(check(alone).empty());
-      }
+    for (const auto& [from, to] :
+         std::vector<std::pair<int, int>>{{2, 4}, {3, 3}, {0, 2}, {5, 6}}) {
+      const Surface alone = reconstruct(part(from, to, false), {.cap = cap}).surface;
+      const Surface both = reconstruct(part(from, to, true), {.cap = cap}).surface;
+      const Surface column = reconstruct(part(9, 9, true), {.cap = cap}).surface;
+      EXPECT_EQ(alone.n_faces() + column.n_faces(), both.n_faces()) << from << " to " << to;
+      if (cap == Cap::open) continue;
+      EXPECT_NEAR(volume(alone) + volume(column), volume(both), 1e-12) << from << " to " << to;
+      EXPECT_TRUE(check(alone).empty());
+    }
 }
 
 TEST(Ends, APartInOneSliceIsClosedAroundIt) {
