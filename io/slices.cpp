@@ -61,12 +61,31 @@ std::vector<Slice> read_slices(const std::filesystem::path& path, unsigned threa
   return format->read(file, path.string(), threads);
 }
 
-std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths, unsigned threads) {
+std::vector<std::string> labels_of(std::span<const std::filesystem::path> paths) {
+  std::vector<std::string> labels(paths.size());
+  if (paths.size() < 2) return labels;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    const auto is_alike = [&](const auto& path) { return path.stem() == paths[i].stem(); };
+    labels[i] = (std::ranges::count_if(paths, is_alike) == 1 ? paths[i].stem() : paths[i]).string();
+  }
+  return labels;
+}
+
+void label_unlabelled(Slice& slice, const std::string& label) {
+  for (Contour& contour : slice.contours)
+    if (contour.label.empty()) contour.label = label;
+}
+
+std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths, unsigned threads,
+                               Unlabelled unlabelled) {
+  const std::vector<std::string> labels =
+      unlabelled == Unlabelled::keep ? std::vector<std::string>(paths.size()) : labels_of(paths);
   std::vector<Slice> slices;
   std::string problems;
-  for (const std::filesystem::path& path : paths) {
+  for (std::size_t i = 0; i < paths.size(); ++i) {
     try {
-      std::vector<Slice> some = read_slices(path, threads);
+      std::vector<Slice> some = read_slices(paths[i], threads);
+      for (Slice& slice : some) label_unlabelled(slice, labels[i]);
       std::ranges::move(some, std::back_inserter(slices));
     } catch (const InputError& error) {
       if (!problems.empty()) problems += '\n';

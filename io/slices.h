@@ -20,9 +20,23 @@ namespace loft::io {
 [[nodiscard]] std::vector<Slice> read_slices(const std::filesystem::path& path,
                                              unsigned threads = 0);
 
+/// What becomes of contours without a label where there are several files.
+enum class Unlabelled {
+  keep,           ///< all files are one stack
+  label_by_file,  ///< each file is a structure of its own: they take its name, see labels_of()
+};
+
 /// The slices of several files one after the other. Bad lines of all of them are listed.
 [[nodiscard]] std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths,
-                                             unsigned threads = 0);
+                                             unsigned threads = 0,
+                                             Unlabelled unlabelled = Unlabelled::keep);
+
+/// For each file the label that its contours without one take: its name without extension, or,
+/// where two files share that, its whole path. Empty where there is one file only.
+[[nodiscard]] std::vector<std::string> labels_of(std::span<const std::filesystem::path> paths);
+
+/// Gives the contours of a slice that have no label that one.
+void label_unlabelled(Slice& slice, const std::string& label);
 
 /// The extensions that read_slices() knows, in lower case: `.ndjson .jsonl .json`.
 [[nodiscard]] std::string slice_extensions();

@@ -7,7 +7,6 @@
 
 #include "io/bytes/file.h"
 #include "io/bytes/text.h"
-#include "io/slices.h"
 #include "io/stacks/slice_line.h"
 #include "reconstruct/defect.h"
 
@@ -35,8 +34,10 @@ std::uint64_t size_of(const std::filesystem::path& path) {
 }  // namespace
 
 StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned threads,
-                     const Visit& visit)
-    : paths_(paths.begin(), paths.end()) {
+                     const Visit& visit, Unlabelled unlabelled)
+    : paths_(paths.begin(), paths.end()),
+      labels_(unlabelled == Unlabelled::keep ? std::vector<std::string>(paths.size())
+                                             : labels_of(paths)) {
   std::uint64_t total = 0;
   for (const auto& path : paths_) total += size_of(path);
   std::uint64_t before = 0;
@@ -47,6 +48,7 @@ StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned thre
       for_each_slice(file, paths_[f].string(), threads, [&](Slice&& slice, LinePlace place) {
         entries_.push_back({f, place, slice.z, point_count(slice)});
         const std::uint64_t done = before + place.offset + place.length;
+        label_unlabelled(slice, labels_[f]);
         visit(slice, total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total));
       });
     } catch (const InputError& error) {
@@ -75,6 +77,7 @@ Slice StackFile::read(std::uint32_t i) const {
   if (file) line = parse_slice_line(without_mark(text));
   if (!file || !line.problems.empty() || line.z != entry.z)
     throw FileError(Access::read, paths_[entry.file], "it changed while it was being read");
+  label_unlabelled(line.slice, labels_[entry.file]);
   return std::move(line.slice);
 }
 

@@ -6,8 +6,10 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
+#include "io/slices.h"
 #include "io/stacks/slice_lines.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/slice.h"
@@ -24,7 +26,8 @@ class StackFile {
   /// Reads the files through, slice by slice, to know where each is and that all can be read.
   /// Throws what read_slices() does, with all bad lines; and FileError for standard input, which
   /// cannot be read a second time.
-  StackFile(std::span<const std::filesystem::path> paths, unsigned threads, const Visit& visit);
+  StackFile(std::span<const std::filesystem::path> paths, unsigned threads, const Visit& visit,
+            Unlabelled unlabelled = Unlabelled::keep);
 
   /// For reconstruct_out_of_core(). Refers to this.
   [[nodiscard]] SliceSource source() const;
@@ -41,6 +44,7 @@ class StackFile {
   };
 
   std::vector<std::filesystem::path> paths_;
+  std::vector<std::string> labels_;  // of each file
   std::vector<Entry> entries_;
 };
 

@@ -28,6 +28,10 @@ struct Filling {
   /// outline of a body.
   std::optional<double> keyhole_width = {};
 
+  /// Two contours that run along each other all the way round, within that share of the slice's
+  /// width, are one. 0: only those that are the same.
+  double tolerance = 1e-7;
+
   [[nodiscard]] double channel_width(std::span<const cdt::Point> contour) const;
 };
 
@@ -65,11 +69,16 @@ struct LinkOrder {
 struct Options {
   Fill fill = Fill::even_odd;
   std::optional<double> keyhole_width = {};  ///< see Filling
+  double tolerance = 1e-7;                   ///< see Filling; not negative
+  /// Slices whose heights differ by no more than that share of the least proper gap are one
+  /// (find_heights()), for parts whose heights differ by rounding. 0: only those of the same
+  /// height. Needs the whole stack: not for Reconstruction.
+  double height_tolerance = 0;
   Cap cap = Cap::flat;
   /// Bends the surface between the slices as their neighbours suggest (reconstruct/smooth.h);
   /// otherwise it is straight from slice to slice.
   bool smooth = false;
-  /// Only contours with this label; all contours where not set.
+  /// Only contours with this label. Not set: all contours, which must have one label then.
   std::optional<std::string> label = {};
   /// Threads that work at the same time; 0: as many as the machine has. Changes nothing but time.
   unsigned threads = 0;

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
+#include <set>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "reconstruct/clean/cleaning.h"
@@ -28,26 +30,32 @@ namespace {
 /// enough to take little memory.
 constexpr std::size_t group_size = std::size_t{1} << 17U;
 
-/// The regions of a stack in the order of their heights, without the empty ones at both ends; those
-/// that are no longer needed are forgotten.
+/// The regions of a stack in the order of their heights, of the empty ones at both ends only the
+/// nearest; those that are no longer needed are forgotten.
 class Regions {
  public:
   explicit Regions(Cap cap) : cap_(cap) {}
 
   void add(Region region) {
-    if (!region.is_empty()) {
-      for (Region& empty : std::exchange(empty_, {})) append(std::move(empty));
-      append(std::move(region));
-      ++filled_count_;
-    } else if (bound() > 0) {
+    if (region.is_empty()) {
+      if (!has_filled_) empty_.clear();  // only the nearest one counts
       empty_.push_back(std::move(region));
+      return;
     }
+    for (Region& empty : std::exchange(empty_, {})) {
+      if (has_filled_) repairs_.push_back(empty_slice(empty));
+      append(std::move(empty));
+    }
+    has_filled_ = true;
+    append(std::move(region));
   }
 
   /// No more come.
   void end() {
-    if (filled_count_ < 2) throw too_few_slices(filled_count_ == 0 ? nullptr : &regions_.front());
-    if (cap_ == Cap::dome)
+    if (!has_filled_) throw too_few_slices(nullptr);
+    if (!empty_.empty()) append(std::move(empty_.front()));
+    if (bound() < 2) throw too_few_slices(&regions_.front());
+    if (cap_ == Cap::dome && !regions_.back().is_empty())
       regions_.push_back(beyond(regions_.back(), regions_[regions_.size() - 2]));
   }
 
@@ -64,19 +72,17 @@ class Regions {
 
  private:
   void append(Region region) {
-    if (region.is_empty()) repairs_.push_back(empty_slice(region));
     regions_.push_back(std::move(region));
-    if (cap_ == Cap::dome && bound() == 2 && !has_low_end_) {
-      has_low_end_ = true;
-      regions_.push_front(beyond(regions_[0], regions_[1]));
-    }
+    if (cap_ != Cap::dome || bound() != 2 || has_low_end_) return;
+    has_low_end_ = true;
+    if (!regions_[0].is_empty()) regions_.push_front(beyond(regions_[0], regions_[1]));
   }
 
   Cap cap_;
   bool has_low_end_ = false;
   std::deque<Region> regions_;
   std::size_t first_ = 0;
-  std::size_t filled_count_ = 0;
+  bool has_filled_ = false;
   std::vector<Region> empty_;  // above the last filled one
   std::vector<Defect> repairs_;
 };
@@ -88,6 +94,7 @@ class Work {
       : source_(source),
         options_(options),
         sink_(sink),
+        one_label_(options.label),
         regions_(options.cap),
         linking_(options),
         memories_(thread_count(options.threads)),
@@ -95,7 +102,7 @@ class Work {
 
   OutOfCoreReport run(const Progress& progress) {
     const std::vector<double> z = usable_heights();
-    const std::vector<Height> heights = find_heights(z, repairs_);
+    const std::vector<Height> heights = find_heights(z, options_.height_tolerance, repairs_);
     const auto tell = [&](std::size_t done) {
       const double share =
           heights.empty() ? 1 : static_cast<double>(done) / static_cast<double>(heights.size());
@@ -140,6 +147,7 @@ class Work {
   [[nodiscard]] std::vector<Region> clean_group(std::span<const Height> heights) {
     std::vector<Region> cleaned(heights.size());
     std::vector<std::vector<Defect>> found(heights.size());
+    std::vector<std::set<std::string>> labels(heights.size());
     for_each_index(heights.size(), options_.threads, [&](std::size_t i, unsigned worker) {
       std::vector<Slice> slices;
       std::vector<const Slice*> parts;
@@ -149,9 +157,13 @@ class Work {
         if (auto fatal = find_unusable(slices.back(), s); !fatal.empty())
           throw InputError(std::move(fatal));
         parts.push_back(&slices.back());
+        if (!options_.label)
+          for (const Contour& contour : slices.back().contours) labels[i].insert(contour.label);
       }
       cleaned[i] = clean(heights[i], parts, options_, found[i], memories_[worker]);
     });
+    for (const auto& some : labels)
+      for (const std::string& label : some) one_label_.add(label);
     for (auto& some : found) std::ranges::move(some, std::back_inserter(repairs_));
     return cleaned;
   }
@@ -325,6 +337,7 @@ class Work {
   const SliceSource& source_;
   const Options& options_;
   SurfaceSink& sink_;
+  OneLabel one_label_;
   Regions regions_;
   std::deque<SliceShape> shapes_;  // of the regions from first_shape_ on, if they are asked for
   std::size_t first_shape_ = 0;

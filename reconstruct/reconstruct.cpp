@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <iterator>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
@@ -18,6 +20,7 @@
 #include "reconstruct/shape/simplify.h"
 #include "reconstruct/shape/smooth.h"
 #include "reconstruct/tile/tiles.h"
+#include "reconstruct/usable.h"
 
 namespace loft {
 
@@ -30,23 +33,30 @@ std::vector<Defect> find_unusable(std::span<const Slice> slices) {
   return found;
 }
 
-/// Leaves out the empty regions at both ends; those between are where the shape is interrupted.
+/// Of the empty regions at either end the one next to a filled one stays: the shape ends before it.
+/// Those between are where it is interrupted.
 std::vector<Region> trim(std::vector<Region> regions, std::vector<Defect>& repairs) {
   const auto is_filled = [](const Region& region) { return !region.is_empty(); };
-  const auto first = std::ranges::find_if(regions, is_filled);
-  const auto last = std::find_if(regions.rbegin(), regions.rend(), is_filled).base();
+  auto first = std::ranges::find_if(regions, is_filled);
+  auto last = std::find_if(regions.rbegin(), regions.rend(), is_filled).base();
   if (first >= last) return {};
-  std::vector<Region> kept(std::make_move_iterator(first), std::make_move_iterator(last));
-  for (const Region& region : kept)
+  for (const Region& region : std::span(first, last))
     if (region.is_empty()) repairs.push_back(empty_slice(region));
-  return kept;
+  if (first != regions.begin()) --first;
+  if (last != regions.end()) ++last;
+  return {std::make_move_iterator(first), std::make_move_iterator(last)};
 }
 
+/// Rounds off the ends that no empty slice is beyond.
 void add_beyond_ends(std::vector<Region>& regions) {
-  const Region low = beyond(regions[0], regions[1]);
-  const Region high = beyond(regions[regions.size() - 1], regions[regions.size() - 2]);
-  regions.insert(regions.begin(), low);
-  regions.push_back(high);
+  const Region& bottom = regions[0];
+  const Region& top = regions.back();
+  std::optional<Region> low;
+  std::optional<Region> high;
+  if (!bottom.is_empty()) low = beyond(bottom, regions[1]);
+  if (!top.is_empty()) high = beyond(top, regions[regions.size() - 2]);
+  if (low) regions.insert(regions.begin(), std::move(*low));
+  if (high) regions.push_back(std::move(*high));
 }
 
 /// Names the slabs that no valid tiles were found for.
@@ -189,10 +199,7 @@ void refine_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
 }
 
 void check_enough(std::span<const Region> regions) {
-  const auto is_filled = [](const Region& region) { return !region.is_empty(); };
-  if (std::ranges::count_if(regions, is_filled) >= 2) return;
-  const auto only = std::ranges::find_if(regions, is_filled);
-  throw too_few_slices(only == regions.end() ? nullptr : &*only);
+  if (regions.size() < 2) throw too_few_slices(regions.empty() ? nullptr : &regions.front());
 }
 
 }  // namespace
@@ -200,6 +207,8 @@ void check_enough(std::span<const Region> regions) {
 Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_options,
                           const Progress& progress) {
   if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  OneLabel one_label(all_options.label);
+  for (const Slice& slice : slices) one_label.add(slice);
   if (const auto problems = find_bad_orders(slices, all_options.links); !problems.empty())
     throw InputError(in_lines(problems));
   Options options = all_options;
@@ -207,7 +216,7 @@ Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_opti
   std::vector<Defect> repairs;
   std::vector<double> z;
   for (const Slice& slice : slices) z.push_back(slice.z);
-  const auto heights = find_heights(z, repairs);
+  const auto heights = find_heights(z, options.height_tolerance, repairs);
   auto regions = trim(clean_all(slices, heights, options, repairs, progress), repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);

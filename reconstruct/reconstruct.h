@@ -40,13 +40,16 @@ class Cancelled : public Error {
 /// thousand: both then end half way, as if nothing overlapped, and DefectKind::unlinked_slices is
 /// among the repairs.
 ///
-/// Slices may come in any order of height; those of equal height are merged. Leading and trailing
-/// empty slices are left out.
+/// Slices may come in any order of height; those of equal height are merged. A slice without a
+/// contour (with Options::label: with that label) says that there is nothing at its height: a part
+/// ends before it, whatever else is there. Of leading and trailing empty slices the nearest counts,
+/// the others are left out. What goes on to the first or the last slice of all is capped there.
 /// Throws InputError with all fatal defects: a coordinate that is not finite or of no usable size
 /// (cdt::Triangulation::is_usable), slices so near to one another that rounding leaves nothing
-/// between them, fewer than two slices with an area; link orders that no stack could meet
-/// (find_bad_orders()), edge lengths that ask for too many triangles (split_long_edges()).
-/// Cost: O(n log n) for n contour points, in practice; memory in proportion to the result.
+/// between them, no slice with an area, or nothing but one such slice; link orders that no stack
+/// could meet (find_bad_orders()), contours of several labels without Options::label, edge lengths
+/// that ask for too many triangles (split_long_edges()). Cost: O(n log n) for n contour points, in
+/// practice; memory in proportion to the result.
 [[nodiscard]] Reconstructed reconstruct(std::span<const Slice> slices, const Options& options = {},
                                         const Progress& progress = {});
 

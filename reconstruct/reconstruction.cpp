@@ -26,8 +26,9 @@ InputError no_slice(double z, const LiveStack& stack) {
 
 Reconstruction::Reconstruction(Options options)
     : stack_(std::make_unique<LiveStack>(std::move(options))) {
-  if (stack_->options.simplify || !stack_->options.links.empty())
-    throw std::invalid_argument("simplify and links need the whole stack");
+  if (stack_->options.simplify || !stack_->options.links.empty() ||
+      stack_->options.height_tolerance != 0)
+    throw std::invalid_argument("simplify, links and height_tolerance need the whole stack");
 }
 Reconstruction::~Reconstruction() = default;
 Reconstruction::Reconstruction(Reconstruction&&) noexcept = default;

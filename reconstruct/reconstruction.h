@@ -38,7 +38,8 @@ struct LiveStack;
 /// Not for several threads at once; snapshots may be used in any thread.
 class Reconstruction {
  public:
-  /// Throws std::invalid_argument for what needs the whole stack: Options::simplify, its links.
+  /// Throws std::invalid_argument for what needs the whole stack: Options::simplify, its links,
+  /// Options::height_tolerance.
   explicit Reconstruction(Options options = {});
   ~Reconstruction();
   Reconstruction(Reconstruction&&) noexcept;
@@ -48,7 +49,8 @@ class Reconstruction {
   /// slice from then on, as in a stack with two slices of one height; the repairs say so
   /// (DefectKind::merged_slices), until that slice is given anew.
   /// Throws InputError with all that is wrong with the slice: a coordinate that is not finite or of
-  /// no usable size, a height too near to another one.
+  /// no usable size, a height too near to another one, a label that is not that of the contours
+  /// there (without Options::label).
   /// Cost: that of making the slabs beside it, whatever the number of slices.
   SurfaceChange insert(Slice slice);
   /// The same with a slice that others have, too: such as the surfaces of other labels.

@@ -29,4 +29,17 @@ std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
   return found;
 }
 
+void OneLabel::add(const Slice& slice) {
+  for (const Contour& contour : slice.contours) add(contour.label);
+}
+
+void OneLabel::add(const std::string& label) {
+  if (is_chosen_) return;
+  if (!label_) label_ = label;
+  if (label != *label_)
+    throw InputError("the stack has contours of several labels, '" + *label_ + "' and '" + label +
+                     "'; choose one of labels() by Options::label, a surface each, or give all "
+                     "contours the same label");
+}
+
 }  // namespace loft

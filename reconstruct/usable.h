@@ -16,4 +16,19 @@ namespace loft {
 [[nodiscard]] std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
                                                 const std::optional<std::string>& label = {});
 
+/// Throws InputError where contours have different labels and none is chosen: one solid of several
+/// structures is nothing that anyone asked for.
+class OneLabel {
+ public:
+  /// `chosen`: Options::label.
+  explicit OneLabel(const std::optional<std::string>& chosen) : is_chosen_(chosen.has_value()) {}
+
+  void add(const Slice& slice);
+  void add(const std::string& label);
+
+ private:
+  bool is_chosen_;
+  std::optional<std::string> label_;
+};
+
 }  // namespace loft

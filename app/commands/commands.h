@@ -20,10 +20,12 @@ enum class Memory { by_size, in_memory, out_of_core };
 struct ReconstructCommand {
   std::vector<std::filesystem::path> inputs;
   std::vector<std::filesystem::path> outputs;
-  Options options;
+  Options options = {.height_tolerance = 1e-4};
   std::optional<std::filesystem::path> links;  ///< file of link orders
   std::string unit = "mm";
   Memory memory = Memory::by_size;
+  bool merges = false;  ///< several files are one stack
+  bool strict = false;  ///< a label that cannot be made is a failure
   bool json = false;
   bool slabs = false;  ///< in the report, too
   bool quiet = false;

@@ -6,6 +6,7 @@
 #include <system_error>
 #include <utility>
 
+#include "app/commands/labels.h"
 #include "app/commands/place_of.h"
 #include "app/interrupt.h"
 #include "app/place.h"
@@ -95,12 +96,14 @@ bool is_out_of_core(const ReconstructCommand& command) {
 void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
   Overview overview;
-  const io::StackFile stack(command.inputs, command.options.threads,
-                            [&](const Slice& slice, double share) {
-                              overview.add(slice);
-                              terminal.show_progress("read", share_of_reading * share);
-                              if (is_interrupted()) throw Cancelled();
-                            });
+  const io::StackFile stack(
+      command.inputs, command.options.threads,
+      [&](const Slice& slice, double share) {
+        overview.add(slice);
+        terminal.show_progress("read", share_of_reading * share);
+        if (is_interrupted()) throw Cancelled();
+      },
+      command.merges ? io::Unlabelled::keep : io::Unlabelled::label_by_file);
   if (!overview.unusable().empty())
     throw InputError(
         with_place(InputError(overview.unusable()).what(), place_of(command, Options())));
@@ -110,7 +113,7 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
   const std::vector<std::string> names = overview.labels();
   const bool is_labelled = names.size() > 1 || !names[0].empty();
   io::PlyPieces output(command.outputs[0], names);
-  std::string problems;
+  LabelProblems problems(command);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;
     options.reports_slabs = command.json;
@@ -133,11 +136,12 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
       part.seconds["tile"] = stopwatch.lap();
       report.seconds["tile"] += part.seconds["tile"];
     } catch (const InputError& error) {
-      if (!problems.empty()) problems += '\n';
-      problems += with_place(error.what(), place_of(command, options));
+      problems.add(names[i], error);
+      output.skip();
     }
   }
-  if (!problems.empty()) throw InputError(problems);
+  problems.raise(names.size());
+  report.skipped = problems.skipped();
   terminal.show_progress("write", share_of_reading + share_of_surfaces);
   output.commit();
   terminal.clear_progress();

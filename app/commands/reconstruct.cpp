@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/commands/commands.h"
+#include "app/commands/labels.h"
 #include "app/commands/out_of_core.h"
 #include "app/commands/place_of.h"
 #include "app/commands/reconstruct_report.h"
@@ -102,17 +103,18 @@ struct Result {
   PartReport report;
 };
 
-/// All labels, or one InputError for all that cannot be reconstructed.
+/// All labels but those that are skipped, or one InputError for all that cannot be reconstructed.
 std::list<Result> reconstruct_all(const ReconstructCommand& command,
                                   const std::vector<Slice>& stack, const Options& all_options,
-                                  Terminal& terminal) {
+                                  Terminal& terminal, std::vector<SkippedLabel>& skipped) {
   std::vector<std::string> names = labels(stack);
   if (names.empty()) names.emplace_back();
+  for (const path& output : command.outputs) check_labels_fit(names.size(), output);
   const bool is_labelled = names.size() > 1 || !names[0].empty();
   const bool is_measured = command.json || !command.quiet;  // else nobody sees it
   const double share = 1.0 / static_cast<double>(names.size());
   std::list<Result> results;
-  std::string problems;
+  LabelProblems problems(command);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = all_options;
     if (is_labelled) options.label = names[i];
@@ -121,12 +123,12 @@ std::list<Result> reconstruct_all(const ReconstructCommand& command,
       Result& result = results.emplace_back(stack, options, follower);
       if (is_measured) result.report.measures = measure(result.made.surface);
     } catch (const InputError& error) {
-      if (!problems.empty()) problems += '\n';
-      problems += with_place(error.what(), place_of(command, options));
+      problems.add(names[i], error);
     }
   }
   terminal.clear_progress();
-  if (!problems.empty()) throw InputError(problems);
+  problems.raise(names.size());
+  skipped = problems.skipped();
   return results;
 }
 
@@ -182,7 +184,9 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
 
 void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
-  const std::vector<Slice> stack = io::read_slices(command.inputs, command.options.threads);
+  const std::vector<Slice> stack =
+      io::read_slices(command.inputs, command.options.threads,
+                      command.merges ? io::Unlabelled::keep : io::Unlabelled::label_by_file);
   report.input = size_of(stack);
   report.input.slices = stack.size();
   report.seconds["read"] = stopwatch.lap();
@@ -190,7 +194,7 @@ void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report
   Options options = command.options;
   if (command.links) options.links = io::read_links_json(*command.links, stack);
   options.reports_slabs = command.json && command.slabs;
-  std::list<Result> results = reconstruct_all(command, stack, options, terminal);
+  std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
   stopwatch.lap();
   write_all(command, results);
   report.seconds["write"] = stopwatch.lap();
@@ -216,10 +220,12 @@ ExitCode run(const ReconstructCommand& command) {
   }
   report.seconds["total"] = total.lap();
 
+  for (const SkippedLabel& label : report.skipped)
+    terminal.warn(label.message + "; nothing was made of it");
   for (const PartReport& part : report.parts) warn(command, part, terminal);
   say_summary(command, report, terminal);
   if (command.json) std::cout << to_json(report, command) << '\n';
-  return ExitCode::ok;
+  return command.strict && !report.skipped.empty() ? ExitCode::bad_input : ExitCode::ok;
 }
 
 }  // namespace loft::app

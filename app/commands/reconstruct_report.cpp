@@ -160,6 +160,8 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"fill", name(command.options.fill)},
       {"keyhole_width",
        command.options.keyhole_width ? Json(*command.options.keyhole_width) : Json()},
+      {"tolerance", command.options.tolerance},
+      {"height_tolerance", command.options.height_tolerance},
       {"cap", name(command.options.cap)},
       {"link", name(command.options.link)},
       {"max_shift", command.options.max_shift ? Json(*command.options.max_shift) : Json()},
@@ -171,6 +173,9 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;
+  json["skipped"] = Json::array();
+  for (const auto& [label, message] : report.skipped)
+    json["skipped"].push_back({{"label", label}, {"message", message}});
   json["parts"] = Json::array();
   for (const PartReport& part : report.parts) json["parts"].push_back(to_json(part, command.slabs));
   return print(json);

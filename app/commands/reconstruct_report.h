@@ -47,6 +47,12 @@ struct PartReport {
   std::map<std::string, double> seconds;  ///< of each stage, by name(Stage)
 };
 
+/// A label of which there is no surface, and why.
+struct SkippedLabel {
+  std::string label;
+  std::string message;
+};
+
 [[nodiscard]] std::array<std::size_t, 4> count_kinds(const Surface& surface);
 
 /// What `loft reconstruct --json` prints, as one object with schema version 2 (1 listed the
@@ -54,13 +60,15 @@ struct PartReport {
 ///
 ///     schema "loft-reconstruct", schema_version 2, loft (version)
 ///     inputs, outputs      file names
-///     options              fill, keyhole_width (null: by default), cap, link, max_shift (null: by
+///     options              fill, keyhole_width (null: by default), tolerance,
+///                          height_tolerance, cap, link, max_shift (null: by
 ///                          size), links (file or null), smooth, metres_per_unit; max_edge,
 ///                          target_edge, simplify if given
 ///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
 ///     seconds              of each stage that there is: read, clean, tile, smooth, refine, sew,
 ///                          simplify, write, total
+///     skipped              labels without a surface: label, message
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, angles, seconds, vertices_of_kind
 ///                          (contour, cleaning, crossing, steiner), cleaning (area; counts by kind;
@@ -83,6 +91,7 @@ struct PartReport {
 struct Report {
   StackSize input;
   std::vector<PartReport> parts;
+  std::vector<SkippedLabel> skipped;
   std::map<std::string, double> seconds;
   bool is_out_of_core = false;
 };

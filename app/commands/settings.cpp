@@ -37,6 +37,7 @@ void set(StreamCommand& command, const std::string& key, const std::string& valu
   if (key == "smooth") options.smooth = value == "true";
   if (key == "unit") command.unit = value;
   if (key == "keyhole_width") set_length(options.keyhole_width, value);
+  if (key == "tolerance") options.tolerance = number(value);
   if (key == "max_shift") set_length(options.max_shift, value);
   if (key == "max_edge") set_length(options.max_edge, value);
   if (key == "target_edge") set_length(options.target_edge, value);
@@ -61,6 +62,8 @@ std::map<std::string, std::string> settings_of(const StreamCommand& command) {
   for (const auto& [setting, length] : lengths(command.options)) settings[setting] = exact(length);
   if (command.options.keyhole_width)
     settings["keyhole_width"] = exact(*command.options.keyhole_width);
+  if (command.options.tolerance != Options().tolerance || command.given.contains("tolerance"))
+    settings["tolerance"] = exact(command.options.tolerance);
   if (command.options.max_shift) settings["max_shift"] = exact(*command.options.max_shift);
   return settings;
 }

@@ -17,6 +17,7 @@
 #include "app/capture/saver.h"
 #include "app/capture/surfaces.h"
 #include "app/commands/commands.h"
+#include "app/commands/labels.h"
 #include "app/commands/settings.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
@@ -257,7 +258,10 @@ class Stream {
     if (!command_.options.smooth) options.settings.erase("smooth");
     Attempts attempts;
     for (const path& output : command_.outputs)
-      attempts.make([&] { io::write(output, surfaces.parts(), options); });
+      attempts.make([&] {
+        check_labels_fit(surfaces.parts().size(), output);
+        io::write(output, surfaces.parts(), options);
+      });
     attempts.check();
   }
 

@@ -96,6 +96,12 @@ void add_slice_options(CLI::App& sub, loft::Options& options) {
                  "the contour's diagonal)")
       ->type_name("LENGTH")
       ->check(CLI::Validator(complain_of_distance, ""));
+  sub.add_option(
+         "--tolerance", options.tolerance,
+         "Contours of a slice that run along each other all the way round within that share "
+         "of its width are one (default 1e-7; 0: only equal ones)")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.0, 0.01));
   sub.add_option_function<std::string>(
          "--cap",
          [&options](const std::string& cap) {
@@ -167,6 +173,16 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
       ->type_name("UNIT")
       ->check(CLI::Validator(complain_of_unit, ""));
+  sub->add_option("--height-tolerance", command.options.height_tolerance,
+                  "Heights that differ by no more than that share of the least proper gap are one "
+                  "(default 1e-4; 0: only equal ones)")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.0, 0.1));
+  sub->add_flag("--merge", command.merges,
+                "Several files are one stack; otherwise contours without a label take the name of "
+                "their file");
+  sub->add_flag("--strict", command.strict,
+                "Exit with 3 if no surface could be made of a label (the others are written)");
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
   sub->add_flag("--slabs", command.slabs, "List all slabs and their links in it");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
@@ -362,7 +378,7 @@ CLI::App* add_man(CLI::App& app) {
 /// Notes which of a session's settings the command line names, and what makes no sense in it.
 void look_at_options(const CLI::App& sub, StreamCommand& command) {
   for (const char* setting :
-       {"fill", "keyhole_width", "cap", "link", "max_shift", "smooth", "unit"}) {
+       {"fill", "keyhole_width", "cap", "link", "max_shift", "smooth", "tolerance", "unit"}) {
     std::string option = std::string("--") + setting;
     std::ranges::replace(option, '_', '-');
     if (sub.count(option) > 0) command.given.insert(setting);

@@ -2,6 +2,7 @@
 #include "io/meshes/ply_pieces.h"
 
 #include <algorithm>
+#include <cassert>
 #include <fstream>
 #include <utility>
 
@@ -78,6 +79,11 @@ void PlyPieces::end(const VertexNumbers& numbers) {
   parts_.push_back(next);
 }
 
+void PlyPieces::skip() {
+  assert(parts_.back().vertex_count == 0 && parts_.back().face_count == 0);
+  labels_.erase(labels_.begin() + static_cast<std::ptrdiff_t>(parts_.size() - 1));
+}
+
 void PlyPieces::commit() {
   PlyCounts counts;
   for (const Part& part : parts_) {
@@ -85,7 +91,7 @@ void PlyPieces::commit() {
     counts.faces += part.face_count;
   }
   AtomicFile file(path_);
-  file.stream() << ply_header(labels_, counts);
+  file.stream() << ply_header(labels_, is_labelled_, counts);
   copy_vertices(file.stream());
   copy_faces(file.stream());
   file.commit();

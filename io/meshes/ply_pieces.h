@@ -29,6 +29,10 @@ class PlyPieces : public SurfaceSink {
   /// The end of one surface; what comes then is the next one.
   void end(const VertexNumbers& numbers) override;
 
+  /// In the place of end(): the surface at hand does not come, after all. Precondition: nothing of
+  /// it has come.
+  void skip();
+
   /// Puts the file in its place. Precondition: all surfaces have ended.
   void commit();
 

@@ -21,7 +21,8 @@ struct PlyCounts {
 };
 
 /// `labels` has one for each part. Throws Error beyond what a file can number.
-[[nodiscard]] std::string ply_header(std::span<const std::string> labels, PlyCounts counts);
+[[nodiscard]] std::string ply_header(std::span<const std::string> labels, bool is_labelled,
+                                     PlyCounts counts);
 
 /// Whether records have a label: not where there is a single part without one.
 [[nodiscard]] bool ply_has_labels(std::span<const std::string> labels);

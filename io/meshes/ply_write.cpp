@@ -14,11 +14,10 @@ bool ply_has_labels(std::span<const std::string> labels) {
   return labels.size() > 1 || (labels.size() == 1 && !labels[0].empty());
 }
 
-std::string ply_header(std::span<const std::string> labels, PlyCounts counts) {
+std::string ply_header(std::span<const std::string> labels, bool is_labelled, PlyCounts counts) {
   if (counts.vertices > 0x7fff'ffff) throw Error("more vertices than a PLY file can number");
   std::string text = "ply\nformat binary_little_endian 1.0\ncomment " + std::string(generator());
   text += '\n';
-  const bool is_labelled = ply_has_labels(labels);
   for (std::size_t i = 0; is_labelled && i < labels.size(); ++i) {
     text += "comment label " + std::to_string(i) + ' ' + one_line(labels[i]) + '\n';
   }
@@ -78,7 +77,7 @@ void write_ply(std::ostream& out, std::span<const Part> parts, const WriteOption
   const auto label_of = [&](std::size_t part) {
     return is_labelled ? std::optional(static_cast<std::int32_t>(part)) : std::nullopt;
   };
-  std::string bytes = ply_header(labels, counts);
+  std::string bytes = ply_header(labels, is_labelled, counts);
   bytes.reserve(bytes.size() + counts.vertices * ply_vertex_size(is_labelled) +
                 counts.faces * ply_face_size(is_labelled));
   for (std::size_t i = 0; i < parts.size(); ++i)

@@ -11,6 +11,7 @@
 #include "cdt/regions.h"
 #include "reconstruct/clean/keyholes.h"
 #include "reconstruct/clean/meetings.h"
+#include "reconstruct/clean/near_copies.h"
 #include "reconstruct/clean/normal_form.h"
 #include "reconstruct/clean/simple_slice.h"
 #include "reconstruct/clean/weld.h"
@@ -27,7 +28,16 @@ using cdt::VertexId;
 /// Outlines of a slice that are nearer to each other than that touch: 16 roundings of the
 /// coordinates, and 1e-12 of the slice's width. Between nearer ones, crossings with the contours of
 /// the next slice could not be told apart.
-double least_distance(std::span<const ContourSource> contours) {
+struct Extent {
+  double width = 0;     // the longer side of the box around all contours
+  double farthest = 0;  // the largest coordinate
+
+  [[nodiscard]] double least_distance() const {
+    return std::max(0x1p-49 * farthest, 0x1p-40 * width);
+  }
+};
+
+Extent extent(std::span<const ContourSource> contours) {
   cdt::Box box;
   double farthest = 0;
   for (const ContourSource& contour : contours) {
@@ -38,18 +48,28 @@ double least_distance(std::span<const ContourSource> contours) {
   }
   const double width =
       box.is_empty() ? 0 : std::max(box.high.x - box.low.x, box.high.y - box.low.y);
-  return std::max(0x1p-49 * farthest, 0x1p-40 * width);
+  return {width, farthest};
+}
+
+/// Whether some of the contours are the same but for less than the tolerance, without coming so
+/// near that they could not be told apart.
+bool has_near_copies(std::span<const ContourSource> contours, double tolerance) {
+  std::vector<std::vector<Point>> places;
+  for (const ContourSource& contour : contours)
+    places.emplace_back(contour.points.begin(), contour.points.end());
+  return !find_near_copies(places, tolerance).empty();
 }
 
 /// The cleaning of one slice, stage by stage.
 class Cleaning {
  public:
   Cleaning(std::span<const ContourSource> contours, double z, const Filling& filling,
-           double least_distance, std::vector<Defect>& repairs, Triangulation& memory)
+           const Extent& extent, std::vector<Defect>& repairs, Triangulation& memory)
       : contours_(contours),
         z_(z),
         filling_(filling),
-        least_distance_(least_distance),
+        least_distance_(extent.least_distance()),
+        tolerance_(filling.tolerance * extent.width),
         repairs_(repairs),
         mesh_(memory) {
     mesh_.clear();
@@ -99,6 +119,7 @@ class Cleaning {
 
   void choose_contours() {
     std::map<std::vector<Point>, std::size_t> seen;  // where the first one is in rings_
+    std::vector<std::vector<Point>> places;          // of each of these
     for (std::uint32_t i = 0; i < contours_.size(); ++i) {
       NormalForm form = normal_form(contours_[i].points);
       if (form.places.empty() || are_in_line(form.places)) {
@@ -111,6 +132,7 @@ class Cleaning {
             .place = form.places.front();
       Ring ring{i, {}, form.turns_left};
       if (form.laps > 1) ring.numbers = std::move(form.numbers);
+      if (!seen.contains(form.places)) places.push_back(form.places);
       const auto [other, is_new] = seen.try_emplace(std::move(form.places), rings_.size());
       if (is_new) {
         rings_.push_back(std::move(ring));
@@ -118,7 +140,25 @@ class Cleaning {
         drop_copy(rings_[other->second], std::move(ring));
       }
     }
+    drop_near_copies(places);
     if (filling_.rule == Fill::keyhole_aware) cut_channels();
+  }
+
+  void drop_near_copies(std::span<const std::vector<Point>> places) {
+    const std::vector<NearCopy> copies = find_near_copies(places, tolerance_);
+    if (copies.empty()) return;
+    std::vector<bool> is_dropped(rings_.size());
+    for (const auto& [kept, dropped] : copies) {
+      is_dropped[dropped] = true;
+      report(DefectKind::repeated_contour, rings_[dropped].contour,
+             "runs along " + called(rings_[kept].contour) +
+                 " all the way round, but for rounding; one copy dropped")
+          .place = contours_[rings_[dropped].contour].points.front();
+    }
+    std::vector<Ring> left;
+    for (std::size_t i = 0; i < rings_.size(); ++i)
+      if (!is_dropped[i]) left.push_back(std::move(rings_[i]));
+    rings_ = std::move(left);
   }
 
   /// Of two that go round opposite ways the one that turns left stays: with it, whatever else is
@@ -409,6 +449,7 @@ class Cleaning {
   double z_;
   Filling filling_;
   double least_distance_;
+  double tolerance_;  // between contours that are one
   std::vector<Defect>& repairs_;
   std::vector<Ring> rings_;  // by constraint
   Triangulation& mesh_;
@@ -426,10 +467,10 @@ namespace {
 constexpr int most_rounds = 16;
 
 /// The loops of a region cleaned once more, as long as that changes anything.
-Region settle(Region region, double least_distance, std::vector<Defect>& repairs,
+Region settle(Region region, const Extent& extent, std::vector<Defect>& repairs,
               Triangulation& memory) {
   for (int round = 0; round < most_rounds; ++round) {
-    const std::vector<std::uint32_t> target = weld(region, least_distance, repairs);
+    const std::vector<std::uint32_t> target = weld(region, extent.least_distance(), repairs);
     std::vector<std::vector<Point>> loops(region.loop_count());
     std::vector<ContourSource> sources;
     for (std::uint32_t i = 0; i < loops.size(); ++i) {
@@ -437,7 +478,7 @@ Region settle(Region region, double least_distance, std::vector<Defect>& repairs
       sources.push_back({loops[i], region.slice, i});
     }
     std::vector<Defect> known;
-    Region again = Cleaning(sources, region.z, {}, least_distance, known, memory).run_again();
+    Region again = Cleaning(sources, region.z, {}, extent, known, memory).run_again();
     for (Origin& origin : again.origins)
       if (origin.kind == VertexKind::contour)
         origin = region.origins[target[region.loop(origin.contour)[origin.point]]];
@@ -460,11 +501,13 @@ double Filling::channel_width(std::span<const cdt::Point> contour) const {
 
 Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,
              std::vector<Defect>& repairs, Triangulation& memory) {
-  const double least = least_distance(contours);
-  if (auto simple = simple_region(contours, z, filling.rule, least)) return std::move(*simple);
-  Cleaning cleaning(contours, z, filling, least, repairs, memory);
+  const Extent size = extent(contours);
+  if (auto simple = simple_region(contours, z, filling.rule, size.least_distance()))
+    if (contours.size() == 1 || !has_near_copies(contours, filling.tolerance * size.width))
+      return std::move(*simple);
+  Cleaning cleaning(contours, z, filling, size, repairs, memory);
   Region region = cleaning.run();
-  return cleaning.is_settled() ? region : settle(std::move(region), least, repairs, memory);
+  return cleaning.is_settled() ? region : settle(std::move(region), size, repairs, memory);
 }
 
 Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,

@@ -37,27 +37,56 @@ void check_gaps(std::span<const Height> heights) {
   if (!found.empty()) throw InputError(std::move(found));
 }
 
+/// The largest gap that is no proper one: see find_heights(). 0 if all are.
+double largest_rounding(std::span<const double> sorted, double tolerance) {
+  std::vector<double> gaps;
+  for (std::size_t i = 0; i + 1 < sorted.size(); ++i)
+    if (sorted[i] != sorted[i + 1]) gaps.push_back(sorted[i + 1] - sorted[i]);
+  std::ranges::sort(gaps);
+  const auto longest_run = [&](double largest) {
+    double longest = 0;
+    double start = sorted.front();
+    for (std::size_t i = 0; i + 1 < sorted.size(); ++i) {
+      if (sorted[i + 1] - sorted[i] > largest) start = sorted[i + 1];
+      longest = std::max(longest, sorted[i + 1] - start);
+    }
+    return longest;
+  };
+  for (std::size_t i = 0; i + 1 < gaps.size(); ++i)
+    if (gaps[i] <= tolerance * gaps[i + 1])
+      return longest_run(gaps[i]) <= tolerance * gaps[i + 1] ? gaps[i] : 0;
+  return 0;
+}
+
 }  // namespace
 
-std::vector<Height> find_heights(std::span<const double> z, std::vector<Defect>& repairs) {
+std::vector<Height> find_heights(std::span<const double> z, double tolerance,
+                                 std::vector<Defect>& repairs) {
   std::vector<std::uint32_t> order(z.size());
   std::iota(order.begin(), order.end(), 0);
   std::ranges::stable_sort(order, {}, [&](std::uint32_t i) { return z[i]; });
+  std::vector<double> sorted;
+  for (const std::uint32_t s : order) sorted.push_back(z[s]);
+  const double rounding = tolerance > 0 ? largest_rounding(sorted, tolerance) : 0;
   std::vector<Height> heights;
-  for (const std::uint32_t s : order) {
-    if (heights.empty() || heights.back().z != z[s]) {
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const std::uint32_t s = order[i];
+    if (i == 0 || sorted[i] - sorted[i - 1] > rounding) {
       heights.push_back({z[s], {s}});
       continue;
     }
-    repairs.push_back({DefectKind::merged_slices,
-                       z[s],
-                       s,
-                       {},
-                       {},
-                       {},
-                       0,
-                       "has the same height as slice " +
-                           std::to_string(heights.back().slices.front()) + "; merged into it"});
+    const std::string relation = heights.back().z == z[s]
+                                     ? "has the same height as slice "
+                                     : "is but for rounding at the height of slice ";
+    repairs.push_back(
+        {DefectKind::merged_slices,
+         z[s],
+         s,
+         {},
+         {},
+         {},
+         0,
+         relation + std::to_string(heights.back().slices.front()) + "; merged into it"});
     heights.back().slices.push_back(s);
   }
   check_gaps(heights);
@@ -73,7 +102,8 @@ Region clean(const Height& height, std::span<const Slice* const> parts, const Op
       if (!options.label || all[c].label == *options.label)
         contours.push_back({all[c].points, height.slices[i], c});
   }
-  Region region = clean(contours, height.z, {options.fill, options.keyhole_width}, repairs, memory);
+  Region region = clean(contours, height.z,
+                        {options.fill, options.keyhole_width, options.tolerance}, repairs, memory);
   region.slice = height.slices.front();
   return region;
 }
@@ -109,8 +139,11 @@ InputError too_few_slices(const Region* only) {
     defect.z = only->z;
     defect.slice = only->slice;
     defect.message =
-        "is the only one with an outline; a surface needs two. For a flat part, give its outline a "
-        "second time at the height where it ends";
+        "is the only one with an outline, and there is no other beside it; a surface needs two. "
+        "For "
+        "a flat part, give its outline a second time at the height where it ends; for one that "
+        "ends "
+        "on the way, an empty slice";
   } else {
     defect.message = "no slice has an outline with an area";
   }

@@ -22,9 +22,11 @@ struct Height {
 /// Whether two heights leave no room for others between them: they need to be different numbers.
 [[nodiscard]] bool are_too_near(double lower, double upper);
 
-/// The heights of slices, ascending; `z` are theirs, in the order of the input. Notes those that
-/// are merged. Throws InputError where two are nearer than rounding allows.
-[[nodiscard]] std::vector<Height> find_heights(std::span<const double> z,
+/// The heights of slices, ascending; `z` are theirs, in the order of the input. Those that differ
+/// by rounding are one, the lowest of them: gaps of which each, and each run of them, is at most
+/// `tolerance` of the least gap that is larger than they are. Notes those that are merged. Throws
+/// InputError where two are nearer than rounding allows.
+[[nodiscard]] std::vector<Height> find_heights(std::span<const double> z, double tolerance,
                                                std::vector<Defect>& repairs);
 
 /// Cleans what is at a height: the contours with the label wanted, of the slices `parts`, which are
@@ -37,7 +39,8 @@ struct Height {
 [[nodiscard]] Defect empty_slice(const Region& region);
 /// The warning that no tiles were found that link a region to the next one above.
 [[nodiscard]] Defect unlinked_slices(const Region& lower);
-/// What is missing where fewer than two regions have an area: none, if `only` is null.
+/// What is missing where there are not two regions, one of them with an area: `only` is the one
+/// that has, or null.
 [[nodiscard]] InputError too_few_slices(const Region* only);
 
 /// For Cap::dome: an empty region one gap beyond the end of a stack, into which it rounds off.

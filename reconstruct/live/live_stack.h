@@ -57,8 +57,8 @@ struct LiveStack {
   explicit LiveStack(Options wanted)
       : options(std::move(wanted)), surface(options.cap == Cap::open) {}
 
-  /// The slices between which the surface is, the first and the last one that are not empty; none
-  /// if there are not two such. Cost: O(number of empty ones beyond).
+  /// The slices between which the surface is: the first and the last one that are not empty, or the
+  /// empty ones next to these; none if that are not two. Cost: O(number of empty ones beyond).
   [[nodiscard]] std::optional<std::pair<Stations::iterator, Stations::iterator>> range();
 
   Options options;

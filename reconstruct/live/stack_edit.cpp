@@ -80,7 +80,8 @@ class StackEdit {
       if (!gap.made) continue;
       const FrozenSlab& slab = *gap.made->frozen;
       change_.added.push_back(slab.info);
-      const bool is_interrupted = gap.lower->slice != nullptr && slab.lower->is_empty();
+      const bool is_interrupted =
+          !gap.is_first && gap.lower->slice != nullptr && slab.lower->is_empty();
       if (is_interrupted) change_.repairs.push_back(empty_slice(*slab.lower));
       if (!slab.linked->is_linked) change_.repairs.push_back(unlinked_slices(*slab.lower));
     }
@@ -97,6 +98,7 @@ class StackEdit {
       check_gap(edit.z, fatal);
     }
     if (!fatal.empty()) throw InputError(std::move(fatal));
+    check_label();
     for (SliceEdit& edit : edits_) {
       if (edit.slice) {
         stations_.push_back(make_station(std::move(edit)));
@@ -105,6 +107,19 @@ class StackEdit {
         stations_.emplace_back();
       }
     }
+  }
+
+  /// All contours have one label: those that stay say which.
+  void check_label() const {
+    OneLabel one_label(stack_.options.label);
+    const auto stays = [&](const auto& at) {
+      return !at.second.slice->contours.empty() &&
+             std::ranges::find(edits_, at.first, &SliceEdit::z) == edits_.end();
+    };
+    const auto first = std::ranges::find_if(stack_.stations, stays);
+    if (first != stack_.stations.end()) one_label.add(*first->second.slice);
+    for (const SliceEdit& edit : edits_)
+      if (edit.slice) one_label.add(*edit.slice);
   }
 
   /// Of the slice at a height, or of the next one that comes.
@@ -229,12 +244,12 @@ class StackEdit {
     const bool is_dome = stack_.options.cap == Cap::dome;
     if (is_dome) round_off(first, last);
     std::vector<Station*> line;
-    if (is_dome && is_bottom) line.push_back(&stack_.below);
+    if (is_dome && is_bottom && !first->second.region->is_empty()) line.push_back(&stack_.below);
     for (auto station = from;; ++station) {
       line.push_back(&station->second);
       if (station == to) break;
     }
-    if (is_dome && is_top) line.push_back(&stack_.above);
+    if (is_dome && is_top && !last->second.region->is_empty()) line.push_back(&stack_.above);
     return {stack_, std::move(line), is_bottom, is_top};
   }
 

@@ -73,13 +73,11 @@ const std::vector<Case> cases{
     {"AllSlicesEmpty", slice(0, "") + slice(1, "") + slice(2, ""), to_ply, 3, {"in.ndjson: "}},
     {"OneSliceOnly", slice(0, ring(8)), to_ply, 3, {"in.ndjson: "}},
     {"OneHeightOnly", slice(0, ring(8)) + slice(0, ring(8)), to_ply, 3, {"in.ndjson: "}},
-    {"OneSliceOfALabel",
-     R"({"z": 0, "contours": [[[0,0],[1,0],[0,1]], [[5,5],[6,5],[5,6]]], "labels": ["a", "b"]})"
-     "\n"
-     R"({"z": 1, "contours": [[[0,0],[1,0],[0,1]]], "labels": ["a"]})",
+    {"NothingOfAnyLabel",
+     R"({"z": 0, "contours": [[[0,0],[1,0],[0,1]], [[5,5],[6,5],[5,6]]], "labels": ["a", "b"]})",
      to_ply,
      3,
-     {"in.ndjson: label 'b': "}},
+     {"in.ndjson: label 'a': ", "in.ndjson: label 'b': "}},
 
     // Outputs.
     {"MissingFolder",

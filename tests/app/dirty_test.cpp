@@ -104,7 +104,10 @@ const std::vector<Case> cases{
      0,
      2},
     {"EmptySliceInTheMiddle", barrel(slice(2, "")), {"empty_slice"}, {}, 0, 2},
-    {"EmptySlicesAtTheEnds", slice(-1, "") + barrel() + slice(5, "") + slice(6, ""), {}, barrel()},
+    {"EmptySlicesAtTheEnds",
+     slice(-1, "") + barrel() + slice(5, "") + slice(6, ""),
+     {},
+     slice(-1, "") + barrel() + slice(5, "")},
     {"HolesOfTheSameOrientation", each(holes), {}, {}, 0, 1, 1},
     {"TouchingContours", each(touching), {}, {}, 0, 2},
     // By parity two overlapping discs leave two crescents, which touch in two points.

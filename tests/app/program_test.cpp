@@ -236,7 +236,7 @@ TEST(Loft, ReadsSeveralFilesAndStandardInput) {
   const Folder folder;
   static_cast<void>(folder.write("stdin", slice(0, ring(8)) + slice(1, ring(9))));
   static_cast<void>(folder.write("b.jsonl", slice(2, ring(7))));
-  EXPECT_EQ(run(folder, "reconstruct - b.jsonl -o two.ply").exit_code, 0);
+  EXPECT_EQ(run(folder, "reconstruct --merge - b.jsonl -o two.ply").exit_code, 0);
   static_cast<void>(
       folder.write("stdin", slice(0, ring(8)) + slice(1, ring(9)) + slice(2, ring(7))));
   EXPECT_EQ(run(folder, "reconstruct - -o one.ply").exit_code, 0);

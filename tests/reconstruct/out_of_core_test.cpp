@@ -143,8 +143,8 @@ TEST(OutOfCore, RefusesWhatIsRefusedInMemory) {
   Slice bad{9, {stacks::square(2)}};
   bad.contours[0].points[2].x = 1e200;
   const Slice near{7 + 1e-14, {stacks::square(1)}};
-  for (const auto& slices : std::vector<std::vector<Slice>>{
-           {}, {empty}, {filled}, {empty, filled}, {filled, bad}, {filled, near}})
+  for (const auto& slices :
+       std::vector<std::vector<Slice>>{{}, {empty}, {filled}, {filled, bad}, {filled, near}})
     expect_refused_as_in_memory(slices);
 }
 

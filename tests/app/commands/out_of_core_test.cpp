@@ -38,7 +38,7 @@ TEST(OutOfCore, WritesTheSameBytesAndReport) {
       "b.ndjson", "\n" + slice(2.5, ring(5) + "," + ring(5, 8, 8)) + "\r\n" + slice(-1, ring(2))));
   for (const std::string options : {"", " --threads 1", " --threads 3 --cap dome", " --smooth",
                                     " --fill nonzero --cap open", " --target-edge 0.7"})
-    expect_same(folder, "a.ndjson b.ndjson" + options);
+    expect_same(folder, "--merge a.ndjson b.ndjson" + options);
 }
 
 TEST(OutOfCore, WritesAllLabelsIntoOneFile) {

@@ -276,7 +276,7 @@ TEST(Clean, TakesHolesAsContoursOfTheirOwnAlsoWhereItLooksForKeyholes) {
 }
 
 TEST(Clean, JoinsWhatIsTooNearToBeToldApart) {
-  // A ring that is thinner than that, a point given nearly twice, a corner nearly on a side.
+  // An outline given nearly twice, a point given nearly twice, a corner nearly on a side.
   const double hair = 1e-14;
   const Slice slice{0,
                     {stacks::square(3),
@@ -286,8 +286,8 @@ TEST(Clean, JoinsWhatIsTooNearToBeToldApart) {
                      {{{12 + hair, 1}, {13, 0}, {13, 2}}, {}}}};
   std::vector<Defect> repairs;
   const Region region = clean_slice(slice, repairs);
-  EXPECT_NEAR(area(region), 0.5 + 9 + 1, 1e-9);
-  EXPECT_EQ(region.points.size(), 3U + 5U + 2U);
+  EXPECT_NEAR(area(region), 36 + 0.5 + 9 + 1, 1e-9);
+  EXPECT_EQ(region.points.size(), 4U + 3U + 5U + 2U);
   EXPECT_FALSE(repairs.empty());
 }
 
