@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
-#include <cmath>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -13,7 +12,6 @@
 #include "app/descriptors.h"
 #include "app/terminal.h"
 #include "app/unit.h"
-#include "cdt/triangulation.h"
 #include "io/bytes/file.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
@@ -21,6 +19,7 @@
 #include "io/surfaces.h"
 #include "io/triangulations.h"
 #include "io/version.h"
+#include "mesh/admitted.h"
 #include "reconstruct/reconstruct.h"
 
 namespace {
@@ -64,8 +63,10 @@ std::string complain_of_unit(const std::string& unit) {
 /// A check for CLI11, as above.
 std::string complain_of_length(const std::string& text) {
   double length = 0;
-  if (CLI::detail::lexical_cast(text, length) && std::isfinite(length) && length > 0) return {};
-  return "'" + text + "' is no length; give a number above 0, in the unit of the input";
+  if (CLI::detail::lexical_cast(text, length) && length > 0 &&
+      loft::admitted::length.admits(length))
+    return {};
+  return "'" + text + "' is no length; give a number from 1e-30 to 1e70, in the unit of the input";
 }
 
 /// Within what glTF's seconds, which are floats, tell apart.
@@ -77,9 +78,18 @@ std::string complain_of_rate(const std::string& text) {
 
 std::string complain_of_distance(const std::string& text) {
   double distance = 0;
-  if (CLI::detail::lexical_cast(text, distance) && std::isfinite(distance) && distance >= 0)
+  if (CLI::detail::lexical_cast(text, distance) && loft::admitted::length.admits_length(distance))
     return {};
-  return "'" + text + "' is no distance; give 0 or a number above, in the unit of the input";
+  return "'" + text +
+         "' is no distance; give 0 or a number from 1e-30 to 1e70, in the unit of the input";
+}
+
+/// As a distance, for a triangulation.
+std::string complain_of_epsilon(const std::string& text) {
+  double epsilon = 0;
+  if (CLI::detail::lexical_cast(text, epsilon) && loft::admitted::planar.admits_length(epsilon))
+    return {};
+  return "'" + text + "' is no distance; give 0 or a number from 1e-50 to 1e75";
 }
 
 /// Options for smaller or fewer triangles.
@@ -350,7 +360,7 @@ CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
   sub->add_option("--epsilon", command.epsilon,
                   "Points and polylines closer than that become one, default 0")
       ->type_name("DISTANCE")
-      ->check(CLI::Range(0.0, loft::cdt::Triangulation::largest_coordinate));
+      ->check(CLI::Validator(complain_of_epsilon, ""));
   sub->add_flag_callback(
       "--no-fill", [&command] { command.drawing.has_fill = false; },
       "Leave regions uncoloured (SVG)");

@@ -199,6 +199,7 @@ void check_enough(std::span<const Region> regions) {
 
 Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_options,
                           const Progress& progress) {
+  require_usable(all_options);
   if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
   if (const auto problems = find_bad_orders(slices, all_options.links); !problems.empty())
     throw InputError(in_lines(problems));

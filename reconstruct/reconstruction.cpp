@@ -28,6 +28,7 @@ Reconstruction::Reconstruction(Options options)
     : stack_(std::make_unique<LiveStack>(std::move(options))) {
   if (stack_->options.simplify || !stack_->options.links.empty())
     throw std::invalid_argument("simplify and links need the whole stack");
+  require_usable(stack_->options);
 }
 Reconstruction::~Reconstruction() = default;
 Reconstruction::Reconstruction(Reconstruction&&) noexcept = default;

@@ -38,7 +38,8 @@ struct LiveStack;
 /// Not for several threads at once; snapshots may be used in any thread.
 class Reconstruction {
  public:
-  /// Throws std::invalid_argument for what needs the whole stack: Options::simplify, ::links.
+  /// Throws std::invalid_argument for what needs the whole stack: Options::simplify, ::links;
+  /// InputError for lengths that are not usable (usable.h).
   explicit Reconstruction(Options options = {});
   ~Reconstruction();
   Reconstruction(Reconstruction&&) noexcept;
