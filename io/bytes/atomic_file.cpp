@@ -59,8 +59,8 @@ bool is_left_over(int file, const path& name) {
 }
 
 /// Makes the file and locks it, so that nobody takes it over. -1 if that cannot be, see errno.
-int make(const path& name) {
-  const int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+int make(const path& name, mode_t mode) {
+  const int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (file < 0) return -1;
   // Where files cannot be locked nobody can take them over.
   if (::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
@@ -79,13 +79,6 @@ void sync_folder(const path& folder) {
   if (file < 0) return;
   ::fsync(file);
   ::close(file);
-}
-
-/// The permissions that a new file gets.
-mode_t mode_of_new_files() {
-  const mode_t mask = ::umask(077);
-  ::umask(mask);
-  return 0666 & ~mask;
 }
 
 /// Takes over a file that no process holds any more. -1 if it is no such file.
@@ -134,14 +127,18 @@ void AtomicFile::create_temporary() {
     std::string name(1, '.');
     name += target_.filename().string() + '.' + std::to_string(number) + ".part";
     temporary_ = folder_of(target_) / name;
-    lock_ = make(temporary_);
+    lock_ = make(temporary_, mode_.value_or(0666));
     if (lock_ < 0 && errno != EEXIST) break;
     if (lock_ < 0) lock_ = take_over(temporary_);
   }
   if (lock_ < 0) throw FileError(Access::write, path_, last_cause());
-  // At once: nobody may read meanwhile who may not later. One that was taken over has any mode.
-  const mode_t mode = mode_.value_or(mode_of_new_files());
-  if (::fchmod(lock_, mode) != 0 && mode_) throw FileError(Access::write, path_, last_cause());
+  // At once, before anything is in it: what the mask left out, or what was taken over has.
+  if (mode_ && ::fchmod(lock_, *mode_) != 0) {
+    const std::string cause = last_cause();
+    ::unlink(temporary_.c_str());
+    ::close(std::exchange(lock_, -1));
+    throw FileError(Access::write, path_, cause);
+  }
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
 }
 
