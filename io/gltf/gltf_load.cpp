@@ -193,7 +193,9 @@ class Filter {
   }
 
   [[nodiscard]] std::uint64_t size_of(const std::string& uri, std::size_t buffer) const {
-    const auto size = size_in_folder(folder_ / decoded(uri), folder_);
+    const std::filesystem::path file = decoded(uri);
+    const bool leads_out = file.is_absolute() || std::ranges::find(file, "..") != file.end();
+    const auto size = leads_out ? std::nullopt : size_in_folder(folder_ / file, folder_);
     if (!size)
       fail("buffer " + std::to_string(buffer) + ": " + in_quotes(uri) +
            " is no file in its folder; put it there");
