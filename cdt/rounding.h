@@ -9,12 +9,20 @@
 
 namespace loft::cdt {
 
-// Where correctly rounded crossings may be on the wrong side of something. These tests only raise
-// doubt, generously and cheaply; they decide nothing.
+// How near is within rounding.
 
 /// Coordinates of crossings are off by half a unit in the last place: within so many of these,
-/// relative to the coordinates, order and side are for exact tests to decide.
+/// relative to the coordinates, are the places that an edit may have to do with.
 inline constexpr double doubtful_rounding = 16 * detail::rounding;
+
+/// A segment may be led astray by rounding that often before it settles for existing edges.
+inline constexpr int most_detours = 32;
+
+/// How far the course of the segment ab may be from it.
+[[nodiscard]] inline double most_astray(Point a, Point b) {
+  return 8 * detail::rounding *
+         std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+}
 
 [[nodiscard]] inline double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
@@ -42,6 +50,15 @@ inline constexpr double doubtful_rounding = 16 * detail::rounding;
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
   return (p.x - a.x) * dx + (p.y - a.y) * dy > 0 && (p.x - b.x) * dx + (p.y - b.y) * dy < 0;
+}
+
+/// Whether p is left of the line through a and b, and not within rounding of it.
+[[nodiscard]] inline bool is_clearly_left(Point a, Point b, Point p) {
+  const double left = (a.x - p.x) * (b.y - p.y);
+  const double right = (a.y - p.y) * (b.x - p.x);
+  const double reach = std::max(std::abs(p.x), std::abs(p.y));
+  return left - right > detail::orient_bound * (std::abs(left) + std::abs(right)) +
+                            doubtful_rounding * reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y));
 }
 
 /// Whether p is beside the segment ab, between its ends, and so near that rounding a and b may have

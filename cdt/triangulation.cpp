@@ -44,6 +44,7 @@ void Triangulation::clear() {
   vertex_count_ = 0;
   reserved_ = VertexId::none();
   is_flat_ = true;
+  has_bends_ = false;
 }
 
 void Triangulation::reserve(std::size_t vertices) {

@@ -244,6 +244,11 @@ class Triangulation {
   /// The constraints that have a point at a vertex or pass through it: sorted, each once.
   /// Cost: the degree; in a mesh with point constraints, their number.
   [[nodiscard]] std::vector<ConstraintId> constraints(VertexId v) const;
+  /// Whether insert(Point) or split() has put a vertex here. Cost: the points of the constraints
+  /// here.
+  [[nodiscard]] bool has_own_point(VertexId v) const {
+    return count_points_at(v) < uses_[v.index()];
+  }
   /// The vertex where a constraint starts.
   [[nodiscard]] VertexId first_vertex(ConstraintId c) const {
     return constraints_[c.index()].first_vertex;
@@ -396,13 +401,7 @@ class Triangulation {
   [[nodiscard]] VertexId merge(Location& place, Point point) const;
   [[nodiscard]] EdgeId hint_for(Point point) const;
   [[nodiscard]] VertexId split_at(Location place, Point point);
-  [[nodiscard]] bool has_constrained_edge(TriangleId t) const {
-    const OrientedEdge* e = &edges_[3 * t.index()];
-    return ((e[0].bits | e[1].bits | e[2].bits) & OrientedEdge::constrained) != 0;
-  }
-  [[nodiscard]] std::optional<EdgeId> bent_edge_at(TriangleId t, Point point);
   void doubt_others_on(EdgeId e, Point point);
-  void doubt_others_through(VertexId v);
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
   void start(VertexId a, VertexId b);
   void extend(EdgeId end_to_infinity, VertexId v);
@@ -423,18 +422,17 @@ class Triangulation {
 
   // constrain.cpp: segments
   void lay(SegmentId s);
+  [[nodiscard]] bool lay_straight(SegmentId s);
   [[nodiscard]] VertexId meet(EdgeId e, SegmentId s);
-  [[nodiscard]] bool connect(VertexId from, VertexId to, SegmentId s);
+  [[nodiscard]] std::optional<Point> common_crossing(EdgeId e, SegmentId s) const;
+  [[nodiscard]] bool misses_crossing_at(VertexId v, SegmentId s);
+  [[nodiscard]] EdgeId connect(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
   [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
                                      Obstacle& obstacle) const;
-  void doubt_crossings_at(VertexId v, SegmentId s);
-  [[nodiscard]] bool runs_along(SegmentId one, SegmentId other) const;
   [[nodiscard]] bool crosses_at(SegmentId one, SegmentId other, Point place) const;
-  void doubt_point_beside(VertexId v, SegmentId s);
-  void doubt_beside(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
-  void lay_crooked(SegmentId s, VertexId at, VertexId via = VertexId::none());
+  void lay_crooked(SegmentId s, VertexId at);
   [[nodiscard]] Point nearest_on(EdgeId e, SegmentId s) const;
   [[nodiscard]] VertexId cross(EdgeId e, SegmentId s);
   [[nodiscard]] std::optional<Point> crossing_point(EdgeId e, SegmentId s) const;
@@ -447,6 +445,20 @@ class Triangulation {
                                        const Obstacle& obstacle) const;
   void doubt(SegmentId s, Point place) { snaps_.push_back({s, place}); }
   [[nodiscard]] std::pair<Point, Point> ends_of(SegmentId s) const;
+
+  // course.cpp: the vertices that a segment leads through
+  [[nodiscard]] bool belongs_at_apex(EdgeId e, Passage passage);
+  bool lead_through_apex(EdgeId e);
+  void settle_around(VertexId v);
+  void settle_piece(EdgeId e);
+  void settle_pieces();
+  void lay_through(SegmentId s);
+  template <class Visit>
+  void trace(SegmentId s, Visit visit) const;
+  void make_crossings(SegmentId s);
+  void gather_stops(SegmentId s);
+  void lay_between(VertexId at, VertexId stop, SegmentId s);
+  [[nodiscard]] VertexId detour(EdgeId e, VertexId at, VertexId goal, SegmentId s);
 
   // cavity.cpp
   EdgeId force_edge(VertexId from, VertexId to);
@@ -477,6 +489,7 @@ class Triangulation {
   void settle_loose();
   void examine(VertexId v);
   [[nodiscard]] bool passes_straight(EdgeId before, EdgeId after) const;
+  [[nodiscard]] bool is_needed(VertexId v) const;
   [[nodiscard]] bool is_rightly_on(SegmentId s, VertexId v) const;
   void gather_segments(VertexId v);
   void lay_again();
@@ -539,6 +552,7 @@ class Triangulation {
   VertexId only_;          // the only vertex, while there is just one
   std::size_t flips_ = 0;  // since insert_points() began
   bool is_flat_ = true;    // no finite triangle yet: all vertices in one line
+  bool has_bends_ = false;  // segments may lead through vertices that are not exactly on them
   bool is_recording_ = false;
   Changes changes_;
 
@@ -548,6 +562,9 @@ class Triangulation {
   std::vector<EdgeId> suspects_;
   std::vector<EdgeId> crossed_;
   std::vector<VertexId> goals_;
+  std::vector<VertexId> stops_;
+  std::vector<Point> crossings_;
+  std::vector<std::pair<VertexId, VertexId>> unsettled_;  // pieces, from one end to the other
   std::vector<TriangleId> spare_;
   std::vector<VertexId> loose_;
   std::vector<SegmentId> taken_off_;
