@@ -18,8 +18,8 @@ void Triangulation::lay(SegmentId s) {
     lay_crooked(s, segment.from);
     return;
   }
-  const bool is_clear = !has_bends_ || (!misses_crossing_at(segment.from, s) &&
-                                        !misses_crossing_at(segment.to, s));
+  const bool is_clear =
+      !misses_something_at(segment.from, s) && !misses_something_at(segment.to, s);
   if (!is_clear || !lay_straight(s)) lay_through(s);
 }
 
@@ -62,7 +62,7 @@ bool Triangulation::lay_straight(SegmentId s) {
     }
     if (piece.is_none() || !is_ahead(point(at), point(ahead), a, b)) return false;
     const bool is_new = vertex_count_ > vertices;
-    if (ahead != segment.to && !is_new && misses_crossing_at(ahead, s)) return false;
+    if (ahead != segment.to && !is_new && misses_something_at(ahead, s)) return false;
     settle_piece(piece);
     at = ahead;
   }
@@ -74,15 +74,11 @@ bool Triangulation::lay_straight(SegmentId s) {
 VertexId Triangulation::meet(EdgeId e, SegmentId s) {
   const std::optional<Point> place = common_crossing(e, s);
   if (!place) return VertexId::none();
-  for (const VertexId end : {from(e), to(e)}) {
-    if (point(end) != *place) continue;
-    has_bends_ = true;
-    return end;
-  }
+  for (const VertexId end : {from(e), to(e)})
+    if (point(end) == *place) return end;
   if (!can_split(e, *place)) return VertexId::none();
   const VertexId v = split_edge_at(e, *place);
-  settle_around(v);
-  return v;
+  return settle_around(v) ? v : VertexId::none();
 }
 
 /// Where s crosses all segments along e, if that is one place.
@@ -99,14 +95,33 @@ std::optional<Point> Triangulation::common_crossing(EdgeId e, SegmentId s) const
   return place;
 }
 
-/// Whether s, which goes through a vertex, crosses another one that does so elsewhere.
-bool Triangulation::misses_crossing_at(VertexId v, SegmentId s) {
-  gather_segments(v);
-  const auto [a, b] = ends_of(s);
-  return std::ranges::any_of(around_, [&](SegmentId other) {
-    const auto [c, d] = ends_of(other);
-    return crosses(a, b, c, d) && intersection(a, b, c, d) != point(v);
-  });
+/// Whether s, which goes through a vertex, crosses another one that does so elsewhere, being led
+/// there by rounding alone; or whether it has to go through a vertex hardly beside this one.
+bool Triangulation::misses_something_at(VertexId v, SegmentId s) const {
+  const bool is_end = ends_at(s, v);  // what ends there, too, does not cross s
+  const Point place = point(v);
+  const double near = doubtful_rounding * std::max(std::abs(place.x), std::abs(place.y));
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    const Point beside = point(to(e));
+    if (std::abs(beside.x - place.x) + std::abs(beside.y - place.y) <= near &&
+        rounds_to(point(segment(s).from), point(segment(s).to), beside))
+      return true;
+    for (const Passage passage : passages(e))
+      if (!(is_end && ends_at(passage.segment(), v)) &&
+          crosses_elsewhere(s, passage.segment(), place))
+        return true;
+    e = rotated(e);
+  } while (e != first);
+  return false;
+}
+
+/// Whether two segments cross, but not at this place.
+bool Triangulation::crosses_elsewhere(SegmentId one, SegmentId other, Point place) const {
+  const auto [a, b] = ends_of(one);
+  const auto [c, d] = ends_of(other);
+  return crosses(a, b, c, d) && intersection(a, b, c, d) != place;
 }
 
 /// Whether two segments cross at a place, rounded.

@@ -48,23 +48,72 @@ bool Triangulation::lead_through_apex(EdgeId e) {
   }
   unsettled_.emplace_back(from(e), through);
   unsettled_.emplace_back(through, to(e));
-  has_bends_ = true;
   restore_delaunay();
   return true;
 }
 
-/// Leads through a vertex that is new what belongs there.
-void Triangulation::settle_around(VertexId v) {
+/// Leads through a vertex that is new what belongs there. Returns whether that is easy: where
+/// others are hardly apart from it, segments are to be laid anew at the end of the edit.
+bool Triangulation::settle_around(VertexId v) {
+  const Point place = point(v);
+  bool is_crowded = false;
   const EdgeId first = edge(v);
   EdgeId e = first;
   do {
-    if (is_constrained(next(e)) && lead_through_apex(next(e))) {
-      settle_around(v);
-      return;
-    }
+    is_crowded |= to(e) != infinite && are_hardly_apart(place, point(to(e)));
+    if (is_constrained(next(e)) && lead_through_apex(next(e))) return settle_around(v);
     e = rotated(e);
   } while (e != first);
   settle_pieces();
+  if (is_crowded) settle_crowd(v);
+  return !is_crowded;
+}
+
+/// Notes the segments through vertices hardly apart from this one that have to lead through it.
+void Triangulation::settle_crowd(VertexId v) {
+  gather_crowd(v);
+  gather_segments(v);
+  const std::vector<SegmentId> here = around_;
+  for (const VertexId w : crowd_) {
+    gather_segments(w);
+    for (const SegmentId s : around_) {
+      const auto [a, b] = ends_of(s);
+      if (!std::ranges::binary_search(here, s) && !ends_at(s, v) && rounds_to(a, b, point(v)))
+        crowded_.push_back(s);
+    }
+  }
+}
+
+/// The vertices hardly apart from one, itself included.
+void Triangulation::gather_crowd(VertexId v) {
+  crowd_.assign(1, v);
+  for (std::size_t i = 0; i < crowd_.size(); ++i) {
+    const EdgeId first = edge(crowd_[i]);
+    EdgeId e = first;
+    do {
+      const VertexId w = to(e);
+      if (w != infinite && are_hardly_apart(point(v), point(w)) &&
+          std::ranges::find(crowd_, w) == crowd_.end())
+        crowd_.push_back(w);
+      e = rotated(e);
+    } while (e != first);
+  }
+}
+
+/// At the end of an edit. One round is enough but where rounding leaves no answer.
+void Triangulation::lay_crowded() {
+  constexpr int most_rounds = 4;
+  for (int round = 0; round < most_rounds && !crowded_.empty(); ++round) {
+    keep_each_once(crowded_);
+    std::vector<SegmentId> all;
+    std::swap(all, crowded_);
+    for (const SegmentId s : all)
+      if (is_segment(s)) lay_through(s);
+    if (!loose_.empty()) settle_loose();
+  }
+  for (const SegmentId s : crowded_)
+    if (is_segment(s)) doubt(s, point(segment(s).from));
+  crowded_.clear();
 }
 
 /// Leads a piece of segments that is new through the vertices beside it where it belongs.
@@ -87,7 +136,6 @@ void Triangulation::settle_pieces() {
 /// the others through them; then it connects the vertices that it leads through itself.
 void Triangulation::lay_through(SegmentId s) {
   const VertexId start = segment(s).from;
-  has_bends_ = true;
   take_off_around(start, s);
   restore_delaunay();
   make_crossings(s);
@@ -177,6 +225,11 @@ void Triangulation::gather_stops(SegmentId s) {
     consider(from(e));
     consider(to(e));
   });
+  keep_each_once(stops_);
+  for (std::size_t i = 0, known = stops_.size(); i <= known; ++i) {
+    gather_crowd(i < known ? stops_[i] : segment.from);
+    for (const VertexId v : crowd_) consider(v);
+  }
   keep_each_once(stops_);
   std::ranges::sort(stops_, [&](VertexId v, VertexId w) {
     return is_ahead(point(v), point(w), a, b);

@@ -44,7 +44,6 @@ void Triangulation::clear() {
   vertex_count_ = 0;
   reserved_ = VertexId::none();
   is_flat_ = true;
-  has_bends_ = false;
 }
 
 void Triangulation::reserve(std::size_t vertices) {
@@ -77,6 +76,7 @@ void Triangulation::begin_edit() {
 }
 
 void Triangulation::end_edit() {
+  if (!crowded_.empty()) lay_crowded();
   if (!snaps_.empty()) tidy_snaps();
   changes_.made.clear();
   changes_.unmade.clear();

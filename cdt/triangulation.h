@@ -425,7 +425,8 @@ class Triangulation {
   [[nodiscard]] bool lay_straight(SegmentId s);
   [[nodiscard]] VertexId meet(EdgeId e, SegmentId s);
   [[nodiscard]] std::optional<Point> common_crossing(EdgeId e, SegmentId s) const;
-  [[nodiscard]] bool misses_crossing_at(VertexId v, SegmentId s);
+  [[nodiscard]] bool misses_something_at(VertexId v, SegmentId s) const;
+  [[nodiscard]] bool crosses_elsewhere(SegmentId one, SegmentId other, Point place) const;
   [[nodiscard]] EdgeId connect(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
   [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
@@ -449,7 +450,10 @@ class Triangulation {
   // course.cpp: the vertices that a segment leads through
   [[nodiscard]] bool belongs_at_apex(EdgeId e, Passage passage);
   bool lead_through_apex(EdgeId e);
-  void settle_around(VertexId v);
+  bool settle_around(VertexId v);
+  void settle_crowd(VertexId v);
+  void gather_crowd(VertexId v);
+  void lay_crowded();
   void settle_piece(EdgeId e);
   void settle_pieces();
   void lay_through(SegmentId s);
@@ -552,7 +556,6 @@ class Triangulation {
   VertexId only_;          // the only vertex, while there is just one
   std::size_t flips_ = 0;  // since insert_points() began
   bool is_flat_ = true;    // no finite triangle yet: all vertices in one line
-  bool has_bends_ = false;  // segments may lead through vertices that are not exactly on them
   bool is_recording_ = false;
   Changes changes_;
 
@@ -563,6 +566,8 @@ class Triangulation {
   std::vector<EdgeId> crossed_;
   std::vector<VertexId> goals_;
   std::vector<VertexId> stops_;
+  std::vector<VertexId> crowd_;
+  std::vector<SegmentId> crowded_;
   std::vector<Point> crossings_;
   std::vector<std::pair<VertexId, VertexId>> unsettled_;  // pieces, from one end to the other
   std::vector<TriangleId> spare_;

@@ -131,7 +131,6 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   if (place.kind == Location::Kind::vertex) {
     last_ = place.edge;
     const VertexId v = from(place.edge);
-    has_bends_ |= uses_[v.index()] == 0;  // it was a crossing
     return v;
   }
   if (place.kind == Location::Kind::nowhere) {
