@@ -52,8 +52,8 @@ bool Triangulation::lead_through_apex(EdgeId e) {
   return true;
 }
 
-/// Leads through a vertex that is new what belongs there. Returns whether that is easy: where
-/// others are hardly apart from it, segments are to be laid anew at the end of the edit.
+/// Leads through a vertex that is new what belongs there. Returns whether that is nothing, and no
+/// other vertex is hardly apart from it: then segments are to be laid anew at the end of the edit.
 bool Triangulation::settle_around(VertexId v) {
   const Point place = point(v);
   bool is_crowded = false;
@@ -61,7 +61,10 @@ bool Triangulation::settle_around(VertexId v) {
   EdgeId e = first;
   do {
     is_crowded |= to(e) != infinite && are_hardly_apart(place, point(to(e)));
-    if (is_constrained(next(e)) && lead_through_apex(next(e))) return settle_around(v);
+    if (is_constrained(next(e)) && lead_through_apex(next(e))) {
+      settle_around(v);
+      return false;
+    }
     e = rotated(e);
   } while (e != first);
   settle_pieces();
@@ -100,20 +103,26 @@ void Triangulation::gather_crowd(VertexId v) {
   }
 }
 
-/// At the end of an edit. One round is enough but where rounding leaves no answer.
+/// Lays those anew; not one after the other, as each is in the way of the next until it leads
+/// through all that it has to. One round is enough but where rounding leaves no answer.
 void Triangulation::lay_crowded() {
   constexpr int most_rounds = 4;
-  for (int round = 0; round < most_rounds && !crowded_.empty(); ++round) {
-    keep_each_once(crowded_);
+  for (int round = 1; round <= most_rounds && !crowded_.empty(); ++round) {
+    take_off_crowded();
     std::vector<SegmentId> all;
     std::swap(all, crowded_);
-    for (const SegmentId s : all)
-      if (is_segment(s)) lay_through(s);
-    if (!loose_.empty()) settle_loose();
+    for (const SegmentId s : all) lay_through(s, round < most_rounds);
   }
   for (const SegmentId s : crowded_)
     if (is_segment(s)) doubt(s, point(segment(s).from));
   crowded_.clear();
+}
+
+void Triangulation::take_off_crowded() {
+  keep_each_once(crowded_);
+  std::erase_if(crowded_, [&](SegmentId s) { return !is_segment(s); });
+  for (const SegmentId s : crowded_) take_off_around(segment(s).from, s);
+  restore_delaunay();
 }
 
 /// Leads a piece of segments that is new through the vertices beside it where it belongs.
@@ -133,12 +142,14 @@ void Triangulation::settle_pieces() {
 }
 
 /// Lays a segment anew whatever is in its way: first all its crossings become vertices, which leads
-/// the others through them; then it connects the vertices that it leads through itself.
-void Triangulation::lay_through(SegmentId s) {
+/// the others through them; then it connects the vertices that it leads through itself. Those that
+/// are to be laid anew make way if they can wait.
+void Triangulation::lay_through(SegmentId s, bool can_others_wait) {
   const VertexId start = segment(s).from;
   take_off_around(start, s);
   restore_delaunay();
   make_crossings(s);
+  if (can_others_wait && !crowded_.empty()) take_off_crowded();
   gather_stops(s);
   VertexId at = start;
   for (const VertexId stop : stops_) {

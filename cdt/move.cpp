@@ -112,6 +112,7 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     segments_[first + i].from = inserted_[i];
     segments_[first + i].to = inserted_[i + 1 < n ? i + 1 : 0];
   }
+  if (!crowded_.empty()) lay_crowded();
   for (std::uint32_t i = 0; i < count; ++i)
     if (!stays_[i]) lay(SegmentId(first + i));
   if (!loose_.empty()) settle_loose();

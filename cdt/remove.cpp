@@ -129,12 +129,14 @@ void Triangulation::settle_loose() {
   constexpr int most_rounds = 8;  // what is laid again may make vertices in vain
   for (int round = 0; round == 0 || (round < most_rounds && !loose_.empty()); ++round) {
     restore_delaunay();
+    if (!crowded_.empty()) lay_crowded();
     keep_each_once(loose_);
     // Others may be added on the way.
     for (std::size_t i = 0; i < loose_.size(); ++i)
       if (is_vertex(loose_[i])) examine(loose_[i]);
     loose_.clear();
     lay_again();
+    if (!crowded_.empty()) lay_crowded();
   }
 }
 

@@ -76,7 +76,7 @@ void Triangulation::begin_edit() {
 }
 
 void Triangulation::end_edit() {
-  if (!crowded_.empty()) lay_crowded();
+  if (!crowded_.empty() || !loose_.empty()) settle_loose();
   if (!snaps_.empty()) tidy_snaps();
   changes_.made.clear();
   changes_.unmade.clear();
@@ -176,6 +176,7 @@ void Triangulation::describe(ConstraintId id, std::span<const VertexId> vertices
 
 void Triangulation::lay_all(ConstraintId id) {
   const Constraint constraint = constraints_[id.index()];
+  if (!crowded_.empty()) lay_crowded();
   for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
     lay(SegmentId(constraint.first_segment + i));
   if (!loose_.empty()) settle_loose();

@@ -454,9 +454,10 @@ class Triangulation {
   void settle_crowd(VertexId v);
   void gather_crowd(VertexId v);
   void lay_crowded();
+  void take_off_crowded();
   void settle_piece(EdgeId e);
   void settle_pieces();
-  void lay_through(SegmentId s);
+  void lay_through(SegmentId s, bool can_others_wait = true);
   template <class Visit>
   void trace(SegmentId s, Visit visit) const;
   void make_crossings(SegmentId s);
