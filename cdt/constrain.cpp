@@ -28,8 +28,7 @@ bool Triangulation::lay_straight(SegmentId s) {
   const Segment segment = this->segment(s);
   if (const EdgeId e = edge_between(segment.from, segment.to); !e.is_none()) {
     mark(e, s);
-    settle_piece(e);
-    return true;
+    return settle_piece(e);
   }
   const Point a = point(segment.from);
   const Point b = point(segment.to);
@@ -63,7 +62,7 @@ bool Triangulation::lay_straight(SegmentId s) {
     if (piece.is_none() || !is_ahead(point(at), point(ahead), a, b)) return false;
     const bool is_new = vertex_count_ > vertices;
     if (ahead != segment.to && !is_new && misses_something_at(ahead, s)) return false;
-    settle_piece(piece);
+    if (!settle_piece(piece)) return false;
     at = ahead;
   }
   return true;

@@ -3,6 +3,7 @@
 // rounding (Hobby, "Practical Segment Intersection with Finite Precision Output", 1999; Guibas and
 // Marimont, "Rounding Arrangements Dynamically", 1998), on the doubles in the place of a grid.
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "cdt/each_once.h"
@@ -52,18 +53,24 @@ bool Triangulation::lead_through_apex(EdgeId e) {
   return true;
 }
 
-/// Leads through a vertex that is new what belongs there. Returns whether that is nothing, and no
-/// other vertex is hardly apart from it: then segments are to be laid anew at the end of the edit.
+/// Leads through a vertex that is new what belongs there. Returns whether there was nothing, nor
+/// anything hardly beside it: if so, segments may have to be laid anew at the end of the edit.
 bool Triangulation::settle_around(VertexId v) {
   const Point place = point(v);
   bool is_crowded = false;
   const EdgeId first = edge(v);
   EdgeId e = first;
   do {
-    is_crowded |= to(e) != infinite && are_hardly_apart(place, point(to(e)));
-    if (is_constrained(next(e)) && lead_through_apex(next(e))) {
-      settle_around(v);
-      return false;
+    const EdgeId around = next(e);
+    if (is_constrained(around)) {
+      if (lead_through_apex(around)) {
+        settle_around(v);
+        return false;
+      }
+      is_crowded |= is_hardly_beside(point(from(around)), point(to(around)), place);
+    } else if (from(around) != infinite && to(around) != infinite) {
+      is_crowded |= are_hardly_apart(place, point(from(around))) ||
+                    is_hardly_beside(point(from(around)), point(to(around)), place);
     }
     e = rotated(e);
   } while (e != first);
@@ -72,35 +79,50 @@ bool Triangulation::settle_around(VertexId v) {
   return !is_crowded;
 }
 
-/// Notes the segments through vertices hardly apart from this one that have to lead through it.
+/// Notes the segments along edges hardly beside a vertex that have to lead through it.
 void Triangulation::settle_crowd(VertexId v) {
-  gather_crowd(v);
   gather_segments(v);
   const std::vector<SegmentId> here = around_;
-  for (const VertexId w : crowd_) {
-    gather_segments(w);
-    for (const SegmentId s : around_) {
-      const auto [a, b] = ends_of(s);
-      if (!std::ranges::binary_search(here, s) && !ends_at(s, v) && rounds_to(a, b, point(v)))
-        crowded_.push_back(s);
-    }
-  }
+  const Point place = point(v);
+  visit_near(
+      v, [&](VertexId w) { return are_hardly_apart(place, point(w)); },
+      [&](EdgeId e) { return is_hardly_beside(point(from(e)), point(to(e)), place, 2); },
+      [&](EdgeId e) {
+        for (const Passage passage : passages(e)) {
+          const SegmentId s = passage.segment();
+          const auto [a, b] = ends_of(s);
+          if (!std::ranges::binary_search(here, s) && !ends_at(s, v) && rounds_to(a, b, place))
+            crowded_.push_back(s);
+        }
+      });
 }
 
-/// The vertices hardly apart from one, itself included.
-void Triangulation::gather_crowd(VertexId v) {
+/// Calls visit(edge) for the edges around v, and goes on around vertices that are near and beyond
+/// edges that are.
+template <class IsNearVertex, class IsNearEdge, class Visit>
+void Triangulation::visit_near(VertexId v, IsNearVertex is_near_vertex, IsNearEdge is_near_edge,
+                               Visit visit) {
   crowd_.assign(1, v);
+  is_in_crowd_.resize(points_.size());
+  is_in_crowd_[v.index()] = true;
+  const auto add = [&](VertexId w) {
+    if (w == infinite || is_in_crowd_[w.index()]) return;
+    is_in_crowd_[w.index()] = true;
+    crowd_.push_back(w);
+  };
   for (std::size_t i = 0; i < crowd_.size(); ++i) {
     const EdgeId first = edge(crowd_[i]);
     EdgeId e = first;
     do {
-      const VertexId w = to(e);
-      if (w != infinite && are_hardly_apart(point(v), point(w)) &&
-          std::ranges::find(crowd_, w) == crowd_.end())
-        crowd_.push_back(w);
+      visit(e);
+      visit(next(e));
+      if (to(e) != infinite && is_near_vertex(to(e))) add(to(e));
+      if (from(next(e)) != infinite && to(next(e)) != infinite && is_near_edge(next(e)))
+        add(apex(twin(next(e))));
       e = rotated(e);
     } while (e != first);
   }
+  for (const VertexId w : crowd_) is_in_crowd_[w.index()] = false;
 }
 
 /// Lays those anew; not one after the other, as each is in the way of the next until it leads
@@ -125,10 +147,56 @@ void Triangulation::take_off_crowded() {
   restore_delaunay();
 }
 
-/// Leads a piece of segments that is new through the vertices beside it where it belongs.
-void Triangulation::settle_piece(EdgeId e) {
-  const bool is_changed = lead_through_apex(e) || lead_through_apex(twin(e));
-  if (is_changed) settle_pieces();
+/// Leads a piece of segments that is new through the vertices beside it where it belongs. Returns
+/// whether there was nothing, nor may be behind edges that leave its ends almost along it.
+bool Triangulation::settle_piece(EdgeId e) {
+  if (lead_through_apex(e) || lead_through_apex(twin(e))) {
+    settle_pieces();
+    return false;
+  }
+  return !is_thin_beside(e) || !hides_something(e);
+}
+
+/// Whether an angle between e and the sides beside it is so small that what is hardly beside e may
+/// be behind these.
+bool Triangulation::is_thin_beside(EdgeId e) const {
+  constexpr double thin = 1.0 / 16;
+  const Point a = point(from(e));
+  const Point b = point(to(e));
+  const double length = std::abs(b.x - a.x) + std::abs(b.y - a.y);
+  const auto is_thin = [&](VertexId v) {
+    if (v == infinite) return false;
+    const Point p = point(v);
+    const double area = std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
+    const double longer = std::max(std::abs(p.x - a.x) + std::abs(p.y - a.y),
+                                   std::abs(p.x - b.x) + std::abs(p.y - b.y));
+    return area < thin * length * longer;
+  };
+  return is_thin(apex(e)) || is_thin(apex(twin(e)));
+}
+
+/// Whether a segment along e has to lead through a neighbour of one of its ends.
+bool Triangulation::hides_something(EdgeId e) const {
+  const auto is_between = [&](VertexId v, SegmentId s) {
+    const auto [a, b] = ends_of(s);
+    const bool is_upward = point(from(e)) < point(to(e));
+    const Point low = point(is_upward ? from(e) : to(e));
+    const Point high = point(is_upward ? to(e) : from(e));
+    return is_ahead(low, point(v), a, b) && is_ahead(point(v), high, a, b) &&
+           rounds_to(a, b, point(v));
+  };
+  for (const VertexId end : {from(e), to(e)}) {
+    const EdgeId first = edge(end);
+    EdgeId spoke = first;
+    do {
+      const VertexId v = to(spoke);
+      if (v != infinite && v != from(e) && v != to(e))
+        for (const Passage passage : passages(e))
+          if (is_between(v, passage.segment())) return true;
+      spoke = rotated(spoke);
+    } while (spoke != first);
+  }
+  return false;
 }
 
 void Triangulation::settle_pieces() {
@@ -222,26 +290,36 @@ void Triangulation::make_crossings(SegmentId s) {
   }
 }
 
-/// The vertices that a point of s rounds to, as far as the triangles that its line crosses have
-/// them for corners, in order; the last one is its end.
+/// The vertices that a point of s rounds to, in order; the last one is its end. Those that are no
+/// corners of triangles which its line crosses are beside vertices hardly beside it.
 void Triangulation::gather_stops(SegmentId s) {
   const Segment segment = this->segment(s);
   const Point a = point(segment.from);
   const Point b = point(segment.to);
-  stops_.assign(1, segment.to);
-  const auto consider = [&](VertexId v) {
-    if (v != infinite && v != segment.from && rounds_to(a, b, point(v))) stops_.push_back(v);
-  };
+  stops_.assign({segment.from, segment.to});
   trace(s, [&](EdgeId e) {
-    consider(from(e));
-    consider(to(e));
+    for (const VertexId v : {from(e), to(e)})
+      if (v != infinite && is_hardly_beside(a, b, point(v), 2)) stops_.push_back(v);
   });
   keep_each_once(stops_);
-  for (std::size_t i = 0, known = stops_.size(); i <= known; ++i) {
-    gather_crowd(i < known ? stops_[i] : segment.from);
-    for (const VertexId v : crowd_) consider(v);
+  is_in_crowd_.resize(points_.size());
+  for (const VertexId v : stops_) is_in_crowd_[v.index()] = true;
+  for (std::size_t i = 0; i < stops_.size(); ++i) {
+    const EdgeId first = edge(stops_[i]);
+    EdgeId e = first;
+    do {
+      const VertexId v = to(e);
+      if (v != infinite && !is_in_crowd_[v.index()] && is_hardly_beside(a, b, point(v), 2)) {
+        is_in_crowd_[v.index()] = true;
+        stops_.push_back(v);
+      }
+      e = rotated(e);
+    } while (e != first);
   }
-  keep_each_once(stops_);
+  for (const VertexId v : stops_) is_in_crowd_[v.index()] = false;
+  std::erase_if(stops_, [&](VertexId v) {
+    return v == segment.from || !rounds_to(a, b, point(v));
+  });
   std::ranges::sort(stops_, [&](VertexId v, VertexId w) {
     return is_ahead(point(v), point(w), a, b);
   });

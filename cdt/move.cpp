@@ -85,7 +85,7 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     const Segment& segment = segments_[first + i];
     if (!stays_[i] || still_.size() == n) continue;
     const EdgeId e = edge_between(segment.from, segment.to);
-    if (!e.is_none()) settle_piece(e);
+    if (!e.is_none() && !settle_piece(e)) crowded_.push_back(SegmentId(first + i));
   }
 
   for (const std::uint32_t i : still_) {

@@ -452,10 +452,13 @@ class Triangulation {
   bool lead_through_apex(EdgeId e);
   bool settle_around(VertexId v);
   void settle_crowd(VertexId v);
-  void gather_crowd(VertexId v);
+  template <class IsNearVertex, class IsNearEdge, class Visit>
+  void visit_near(VertexId v, IsNearVertex is_near_vertex, IsNearEdge is_near_edge, Visit visit);
   void lay_crowded();
   void take_off_crowded();
-  void settle_piece(EdgeId e);
+  bool settle_piece(EdgeId e);
+  [[nodiscard]] bool is_thin_beside(EdgeId e) const;
+  [[nodiscard]] bool hides_something(EdgeId e) const;
   void settle_pieces();
   void lay_through(SegmentId s, bool can_others_wait = true);
   template <class Visit>
@@ -568,6 +571,7 @@ class Triangulation {
   std::vector<VertexId> goals_;
   std::vector<VertexId> stops_;
   std::vector<VertexId> crowd_;
+  std::vector<char> is_in_crowd_;
   std::vector<SegmentId> crowded_;
   std::vector<Point> crossings_;
   std::vector<std::pair<VertexId, VertexId>> unsettled_;  // pieces, from one end to the other
