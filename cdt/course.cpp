@@ -317,12 +317,10 @@ void Triangulation::gather_stops(SegmentId s) {
     } while (e != first);
   }
   for (const VertexId v : stops_) is_in_crowd_[v.index()] = false;
-  std::erase_if(stops_, [&](VertexId v) {
-    return v == segment.from || !rounds_to(a, b, point(v));
-  });
-  std::ranges::sort(stops_, [&](VertexId v, VertexId w) {
-    return is_ahead(point(v), point(w), a, b);
-  });
+  std::erase_if(stops_,
+                [&](VertexId v) { return v == segment.from || !rounds_to(a, b, point(v)); });
+  std::ranges::sort(stops_,
+                    [&](VertexId v, VertexId w) { return is_ahead(point(v), point(w), a, b); });
 }
 
 /// From one vertex to the next. There ought to be nothing between them; where there is, the way

@@ -238,7 +238,9 @@ double exact_distance(Point a, Point b, Point p) {
   const auto from_a = exact(difference(p, a));
   const auto from_b = exact(difference(p, b));
   const auto way = exact(difference(b, a));
-  const auto is_ahead = [&](const ExactVector& v) { return (v.x * way.x + v.y * way.y).sign() > 0; };
+  const auto is_ahead = [&](const ExactVector& v) {
+    return (v.x * way.x + v.y * way.y).sign() > 0;
+  };
   const auto length = [](const ExactVector& v) {
     return std::hypot(v.x.estimate(), v.y.estimate());
   };

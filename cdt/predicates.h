@@ -98,9 +98,10 @@ inline bool rounds_to(Point a, Point b, Point p) {
   const double left = (a.x - p.x) * (b.y - p.y);
   const double right = (a.y - p.y) * (b.x - p.x);
   // As in orient; and what rounds to p is no further than `rounding` of each coordinate.
-  const double bound = detail::orient_bound * (std::abs(left) + std::abs(right)) +
-                       2 * detail::rounding * (std::abs(p.x) * std::abs(b.y - a.y) +
-                                               std::abs(p.y) * std::abs(b.x - a.x));
+  const double bound =
+      detail::orient_bound * (std::abs(left) + std::abs(right)) +
+      2 * detail::rounding *
+          (std::abs(p.x) * std::abs(b.y - a.y) + std::abs(p.y) * std::abs(b.x - a.x));
   return std::abs(left - right) <= bound && detail::rounds_to_exact(a, b, p);
 }
 

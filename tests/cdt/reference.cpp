@@ -83,8 +83,7 @@ class Tracer {
     std::vector<Point> chain;
     for (const Point p : vertices_)
       if (p == low || p == high || rounds_to(low, high, p)) chain.push_back(p);
-    std::ranges::sort(chain,
-                      [&](Point p, Point q) { return is_in_order(p, q, low, high); });
+    std::ranges::sort(chain, [&](Point p, Point q) { return is_in_order(p, q, low, high); });
     return chain;
   }
 
@@ -117,8 +116,8 @@ class Tracer {
   [[nodiscard]] static std::optional<Stretch> clip(const Integer& a, const Integer& b,
                                                    const Cell& cell, const Integer& scale) {
     if (a == b) {
-      const bool is_inside = cell.has_ends ? cell.low <= a && a <= cell.high
-                                           : cell.low < a && a < cell.high;
+      const bool is_inside =
+          cell.has_ends ? cell.low <= a && a <= cell.high : cell.low < a && a < cell.high;
       if (!is_inside) return {};
       return Stretch{0, scale, true, true};
     }

@@ -45,8 +45,7 @@ class Reference {
   void gather_points(std::span<const Outline> constraints);
   void trace_chains(std::span<const Outline> constraints);
   void lead_runs(std::span<const Outline> constraints);
-  [[nodiscard]] bool leaves_aside(
-      const std::pair<const Straight, std::vector<Point>>& entry) const;
+  [[nodiscard]] bool leaves_aside(const std::pair<const Straight, std::vector<Point>>& entry) const;
 
   std::vector<Point> inputs_;                      // sorted, each once
   std::map<Straight, std::vector<Point>> chains_;  // from the smaller end to the larger
