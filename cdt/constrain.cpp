@@ -19,7 +19,8 @@ void Triangulation::lay(SegmentId s) {
     return;
   }
   const bool is_clear =
-      !misses_something_at(segment.from, s) && !misses_something_at(segment.to, s);
+      !(has_bends_ || has_crowds_) ||
+      (!misses_something_at(segment.from, s) && !misses_something_at(segment.to, s));
   if (!is_clear || !lay_straight(s)) lay_through(s);
 }
 
@@ -28,7 +29,7 @@ bool Triangulation::lay_straight(SegmentId s) {
   const Segment segment = this->segment(s);
   if (const EdgeId e = edge_between(segment.from, segment.to); !e.is_none()) {
     mark(e, s);
-    return settle_piece(e);
+    return settle_piece(e, s);
   }
   const Point a = point(segment.from);
   const Point b = point(segment.to);
@@ -62,7 +63,7 @@ bool Triangulation::lay_straight(SegmentId s) {
     if (piece.is_none() || !is_ahead(point(at), point(ahead), a, b)) return false;
     const bool is_new = vertex_count_ > vertices;
     if (ahead != segment.to && !is_new && misses_something_at(ahead, s)) return false;
-    if (!settle_piece(piece)) return false;
+    if (!settle_piece(piece, s)) return false;
     at = ahead;
   }
   return true;
@@ -73,8 +74,11 @@ bool Triangulation::lay_straight(SegmentId s) {
 VertexId Triangulation::meet(EdgeId e, SegmentId s) {
   const std::optional<Point> place = common_crossing(e, s);
   if (!place) return VertexId::none();
-  for (const VertexId end : {from(e), to(e)})
-    if (point(end) == *place) return end;
+  for (const VertexId end : {from(e), to(e)}) {
+    if (point(end) != *place) continue;
+    has_bends_ = true;
+    return end;
+  }
   if (!can_split(e, *place)) return VertexId::none();
   const VertexId v = split_edge_at(e, *place);
   return settle_around(v) ? v : VertexId::none();
@@ -99,12 +103,12 @@ std::optional<Point> Triangulation::common_crossing(EdgeId e, SegmentId s) const
 bool Triangulation::misses_something_at(VertexId v, SegmentId s) const {
   const bool is_end = ends_at(s, v);  // what ends there, too, does not cross s
   const Point place = point(v);
-  const double near = doubtful_rounding * std::max(std::abs(place.x), std::abs(place.y));
+  const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
   const EdgeId first = edge(v);
   EdgeId e = first;
   do {
     const Point beside = point(to(e));
-    if (std::abs(beside.x - place.x) + std::abs(beside.y - place.y) <= near &&
+    if (has_crowds_ && std::abs(beside.x - place.x) + std::abs(beside.y - place.y) <= near &&
         rounds_to(point(segment(s).from), point(segment(s).to), beside))
       return true;
     for (const Passage passage : passages(e))

@@ -49,6 +49,7 @@ bool Triangulation::lead_through_apex(EdgeId e) {
   }
   unsettled_.emplace_back(from(e), through);
   unsettled_.emplace_back(through, to(e));
+  has_bends_ = true;
   restore_delaunay();
   return true;
 }
@@ -62,21 +63,18 @@ bool Triangulation::settle_around(VertexId v) {
   EdgeId e = first;
   do {
     const EdgeId around = next(e);
-    if (is_constrained(around)) {
-      if (lead_through_apex(around)) {
-        settle_around(v);
-        return false;
-      }
-      is_crowded |= is_hardly_beside(point(from(around)), point(to(around)), place);
-    } else if (from(around) != infinite && to(around) != infinite) {
-      is_crowded |= are_hardly_apart(place, point(from(around))) ||
-                    is_hardly_beside(point(from(around)), point(to(around)), place);
+    if (is_constrained(around) && lead_through_apex(around)) {
+      settle_around(v);
+      return false;
     }
+    is_crowded |= is_crowding(point(from(around)), point(to(around)), place);
     e = rotated(e);
   } while (e != first);
   settle_pieces();
-  if (is_crowded) settle_crowd(v);
-  return !is_crowded;
+  if (!is_crowded) return true;
+  has_crowds_ = true;
+  settle_crowd(v);
+  return false;
 }
 
 /// Notes the segments along edges hardly beside a vertex that have to lead through it.
@@ -147,32 +145,21 @@ void Triangulation::take_off_crowded() {
   restore_delaunay();
 }
 
-/// Leads a piece of segments that is new through the vertices beside it where it belongs. Returns
-/// whether there was nothing, nor may be behind edges that leave its ends almost along it.
-bool Triangulation::settle_piece(EdgeId e) {
+/// Leads a new piece of s through the vertices beside it where it belongs. Returns whether there
+/// was nothing, nor may be behind edges that leave its ends almost along it.
+bool Triangulation::settle_piece(EdgeId e, SegmentId s) {
+  const Point a = point(segment(s).from);
+  const Point b = point(segment(s).to);
+  const double reach = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  const auto is_clear = [&](VertexId v) {
+    return v == infinite || is_clearly_beside(point(from(e)), point(to(e)), point(v), reach);
+  };
+  if (is_clear(apex(e)) && is_clear(apex(twin(e)))) return true;
   if (lead_through_apex(e) || lead_through_apex(twin(e))) {
     settle_pieces();
     return false;
   }
-  return !is_thin_beside(e) || !hides_something(e);
-}
-
-/// Whether an angle between e and the sides beside it is so small that what is hardly beside e may
-/// be behind these.
-bool Triangulation::is_thin_beside(EdgeId e) const {
-  constexpr double thin = 1.0 / 16;
-  const Point a = point(from(e));
-  const Point b = point(to(e));
-  const double length = std::abs(b.x - a.x) + std::abs(b.y - a.y);
-  const auto is_thin = [&](VertexId v) {
-    if (v == infinite) return false;
-    const Point p = point(v);
-    const double area = std::abs((b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x));
-    const double longer = std::max(std::abs(p.x - a.x) + std::abs(p.y - a.y),
-                                   std::abs(p.x - b.x) + std::abs(p.y - b.y));
-    return area < thin * length * longer;
-  };
-  return is_thin(apex(e)) || is_thin(apex(twin(e)));
+  return !hides_something(e);
 }
 
 /// Whether a segment along e has to lead through a neighbour of one of its ends.
@@ -214,6 +201,7 @@ void Triangulation::settle_pieces() {
 /// are to be laid anew make way if they can wait.
 void Triangulation::lay_through(SegmentId s, bool can_others_wait) {
   const VertexId start = segment(s).from;
+  has_bends_ = true;
   take_off_around(start, s);
   restore_delaunay();
   make_crossings(s);

@@ -84,8 +84,9 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
   for (std::uint32_t i = 0; i < count; ++i) {
     const Segment& segment = segments_[first + i];
     if (!stays_[i] || still_.size() == n) continue;
+    const SegmentId s(first + i);
     const EdgeId e = edge_between(segment.from, segment.to);
-    if (!e.is_none() && !settle_piece(e)) crowded_.push_back(SegmentId(first + i));
+    if (!e.is_none() && !settle_piece(e, s)) crowded_.push_back(s);
   }
 
   for (const std::uint32_t i : still_) {

@@ -15,6 +15,11 @@ namespace loft::cdt {
 /// relative to the coordinates, are the places that an edit may have to do with.
 inline constexpr double doubtful_rounding = 16 * detail::rounding;
 
+/// What rounds to places further apart than so many of these, relative to the coordinates, is told
+/// apart by angles that are not thin.
+inline constexpr double crowded_rounding = 1024 * detail::rounding;
+inline constexpr double thin = 1.0 / 256;
+
 /// A segment may be led astray by rounding that often before it settles for existing edges.
 inline constexpr int most_detours = 32;
 
@@ -52,6 +57,16 @@ inline constexpr int most_detours = 32;
   return (p.x - a.x) * dx + (p.y - a.y) * dy > 0 && (p.x - b.x) * dx + (p.y - b.y) * dy < 0;
 }
 
+/// Whether p is neither within rounding of the line ab nor in a direction from a or b that is almost
+/// that of the line. `reach`: a bound for coordinates.
+[[nodiscard]] inline bool is_clearly_beside(Point a, Point b, Point p, double reach) {
+  const double area = std::abs((a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x));
+  const double length = std::abs(b.x - a.x) + std::abs(b.y - a.y);
+  const double longer = std::max(std::abs(p.x - a.x) + std::abs(p.y - a.y),
+                                 std::abs(p.x - b.x) + std::abs(p.y - b.y));
+  return area > length * std::max(thin * longer, crowded_rounding * reach);
+}
+
 /// Whether p is left of the line through a and b, and not within rounding of it.
 [[nodiscard]] inline bool is_clearly_left(Point a, Point b, Point p) {
   const double left = (a.x - p.x) * (b.y - p.y);
@@ -71,6 +86,14 @@ inline constexpr int most_detours = 32;
   if (std::abs(area) > slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy)))
     return false;
   return is_alongside(a, b, p);
+}
+
+/// Whether p is so near to the line ab, or to a or b, that others may be hardly beside it.
+[[nodiscard]] inline bool is_crowding(Point a, Point b, Point p) {
+  const double area = (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
+  const double reach = std::max(std::abs(p.x), std::abs(p.y));
+  return std::abs(area) <= 2 * crowded_rounding * reach *
+                               (std::abs(b.x - a.x) + std::abs(b.y - a.y));
 }
 
 /// Whether q comes after p on the way from a to b, where both are on that line but for correct

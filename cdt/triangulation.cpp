@@ -44,6 +44,8 @@ void Triangulation::clear() {
   vertex_count_ = 0;
   reserved_ = VertexId::none();
   is_flat_ = true;
+  has_bends_ = false;
+  has_crowds_ = false;
 }
 
 void Triangulation::reserve(std::size_t vertices) {
@@ -124,6 +126,8 @@ std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
   check_usable({&point, 1});
   if (!can_split(e, point)) return {};
   begin_edit();
+  has_bends_ = true;
+  has_crowds_ = true;
   doubt_others_on(e, point);
   const VertexId v = split_at({Location::Kind::edge, e}, point);
   ++uses_[v.index()];
@@ -140,6 +144,7 @@ std::optional<VertexId> Triangulation::split(TriangleId t, Point point) {
     if (orient(this->point(from(e)), this->point(to(e)), point) <= 0) return {};
   }
   begin_edit();
+  has_crowds_ = true;
   const VertexId v = split_at({Location::Kind::triangle, edge(t)}, point);
   ++uses_[v.index()];
   end_edit();

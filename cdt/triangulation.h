@@ -456,8 +456,7 @@ class Triangulation {
   void visit_near(VertexId v, IsNearVertex is_near_vertex, IsNearEdge is_near_edge, Visit visit);
   void lay_crowded();
   void take_off_crowded();
-  bool settle_piece(EdgeId e);
-  [[nodiscard]] bool is_thin_beside(EdgeId e) const;
+  bool settle_piece(EdgeId e, SegmentId s);
   [[nodiscard]] bool hides_something(EdgeId e) const;
   void settle_pieces();
   void lay_through(SegmentId s, bool can_others_wait = true);
@@ -560,6 +559,9 @@ class Triangulation {
   VertexId only_;          // the only vertex, while there is just one
   std::size_t flips_ = 0;  // since insert_points() began
   bool is_flat_ = true;    // no finite triangle yet: all vertices in one line
+  bool has_bends_ = false;     // segments may lead through points of others that are not on them
+  bool has_crowds_ = false;    // vertices may be hardly apart
+  bool is_surrounded_ = true;  // what fan_out() came by: constrained edges, vertices hardly apart
   bool is_recording_ = false;
   Changes changes_;
 

@@ -131,6 +131,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   if (place.kind == Location::Kind::vertex) {
     last_ = place.edge;
     const VertexId v = from(place.edge);
+    has_bends_ |= uses_[v.index()] == 0;  // it was a crossing
     return v;
   }
   if (place.kind == Location::Kind::nowhere) {
@@ -150,7 +151,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
     doubt_others_on(place.edge, point);
   }
   const VertexId v = split_at(place, point);
-  if (epsilon_ == 0 && !segments_.empty()) settle_around(v);
+  if (epsilon_ == 0 && is_surrounded_) settle_around(v);
   last_ = edge(v);
   locator_.add(v, point);
   return v;
@@ -202,6 +203,8 @@ VertexId Triangulation::split_at(Location place, Point point) {
 void Triangulation::doubt_others_on(EdgeId e, Point p) {
   for (const Passage passage : passages(e)) {
     const Segment& s = segment(passage.segment());
+    if (orient(point(s.from), point(s.to), p) == 0) continue;
+    has_bends_ = true;
     if (!rounds_to(point(s.from), point(s.to), p)) doubt(passage.segment(), p);
   }
 }
@@ -320,9 +323,12 @@ inline bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, Verte
 void Triangulation::fan_out(VertexId v) {
   TriangleId t = triangle(edge(v));
   const VertexId first = from(edge(t, 0));
+  is_surrounded_ = false;
   for (;;) {
     const EdgeId e = edge(t, 0);
-    if (!is_constrained(e)) {
+    if (is_constrained(e)) {
+      is_surrounded_ = true;
+    } else {
       const EdgeId f = twin(e);
       const VertexId d = apex(f);
       if (should_flip(from(e), from(f), v, d)) {
@@ -330,6 +336,7 @@ void Triangulation::fan_out(VertexId v) {
         continue;
       }
     }
+    is_surrounded_ |= is_crowding(point(from(e)), point(to(e)), point(v));
     t = triangle(twin(edge(t, 1)));
     if (from(edge(t, 0)) == first) break;
   }

@@ -66,6 +66,8 @@ class Author {
         return {5e6 + number_below(100) / 7, 4e7 + number_below(100) / 7};
       case Ground::beside_lines:
         return constraints_.empty() || below(2) == 0 ? Point{decimal(), decimal()} : beside();
+      case Ground::near_zero:
+        return near_zero();
       case Ground::flush:
         return below(4) == 0 ? Point{decimal(), decimal()} : along_corridor();
       case Ground::nearly_equal:
@@ -99,6 +101,15 @@ class Author {
     const double to = below(2) == 0 ? -1e300 : 1e300;
     for (std::size_t steps = below(9); steps > 0; --steps) x = std::nextafter(x, to);
     return x;
+  }
+
+  /// On one of a few lines across 0, far away or very near, or beside them.
+  [[nodiscard]] Point near_zero() {
+    const Point ways[] = {{0.6, 1.8}, {-1.7, 0.6}, {1, 0}, {0, 0.7}};
+    const Point way = ways[below(std::size(ways))];
+    const double sizes[] = {1e-15, 1, 100.0 / 3};
+    const double far = sizes[below(std::size(sizes))] * (number_below(9) - 4);
+    return {nudged(far * way.x + 1e-15 * number_below(3)), nudged(far * way.y)};
   }
 
   /// One of a few places on one of a few parallel lines, by arithmetic that rounds.
@@ -201,9 +212,9 @@ class Author {
 }  // namespace
 
 const char* name_of(Ground ground) {
-  constexpr const char* names[] = {
-      "8x8 grid",        "4x4 grid",     "decimals",     "near-parallel",
-      "far from origin", "nearly equal", "beside lines", "flush"};
+  constexpr const char* names[] = {"8x8 grid",     "4x4 grid",        "decimals",
+                                   "near-parallel", "far from origin", "nearly equal",
+                                   "beside lines",  "near zero",       "flush"};
   return names[static_cast<std::size_t>(ground)];
 }
 
