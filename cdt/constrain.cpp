@@ -18,9 +18,8 @@ void Triangulation::lay(SegmentId s) {
     lay_crooked(s, segment.from);
     return;
   }
-  const bool is_clear =
-      !(has_bends_ || has_crowds_) ||
-      (!misses_something_at(segment.from, s) && !misses_something_at(segment.to, s));
+  const bool is_clear = !(has_bends_ || has_crowds_) || (!misses_something_at(segment.from, s) &&
+                                                         !misses_something_at(segment.to, s));
   if (!is_clear || !lay_straight(s)) lay_through(s);
 }
 

@@ -141,7 +141,7 @@ void Triangulation::lay_crowded() {
 void Triangulation::take_off_crowded() {
   keep_each_once(crowded_);
   std::erase_if(crowded_, [&](SegmentId s) { return !is_segment(s); });
-  for (const SegmentId s : crowded_) take_off_around(segment(s).from, s);
+  for (const SegmentId s : crowded_) take_off_to_lay_again(s);
   restore_delaunay();
 }
 
@@ -202,7 +202,7 @@ void Triangulation::settle_pieces() {
 void Triangulation::lay_through(SegmentId s, bool can_others_wait) {
   const VertexId start = segment(s).from;
   has_bends_ = true;
-  take_off_around(start, s);
+  take_off_to_lay_again(s);
   restore_delaunay();
   make_crossings(s);
   if (can_others_wait && !crowded_.empty()) take_off_crowded();
@@ -331,6 +331,8 @@ void Triangulation::lay_between(VertexId at, VertexId stop, SegmentId s) {
     if (obstacle.kind == Obstacle::Kind::constrained_edge) {
       ++detours;
       doubt(s, point(at));
+      crowded_.push_back(s);  // what is in the way may go
+      for (const Passage passage : passages(obstacle.edge)) crowded_.push_back(passage.segment());
       goals_.push_back(detour(obstacle.edge, at, goal, s));
       continue;
     }
@@ -358,8 +360,10 @@ VertexId Triangulation::detour(EdgeId e, VertexId at, VertexId goal, SegmentId s
         (nearest.is_none() || distance(point(v), place) < distance(point(nearest), place)))
       nearest = v;
   if (!nearest.is_none()) return nearest;
-  if (can_split(e, place)) return split_edge_at(e, place);
-  return snap(e, place, s);
+  if (!can_split(e, place)) return snap(e, place, s);
+  const VertexId v = split_edge_at(e, place);
+  loosen(v);
+  return v;
 }
 
 }  // namespace loft::cdt

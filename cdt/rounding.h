@@ -57,8 +57,8 @@ inline constexpr int most_detours = 32;
   return (p.x - a.x) * dx + (p.y - a.y) * dy > 0 && (p.x - b.x) * dx + (p.y - b.y) * dy < 0;
 }
 
-/// Whether p is neither within rounding of the line ab nor in a direction from a or b that is almost
-/// that of the line. `reach`: a bound for coordinates.
+/// Whether p is neither within rounding of the line ab nor in a direction from a or b that is
+/// almost that of the line. `reach`: a bound for coordinates.
 [[nodiscard]] inline bool is_clearly_beside(Point a, Point b, Point p, double reach) {
   const double area = std::abs((a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x));
   const double length = std::abs(b.x - a.x) + std::abs(b.y - a.y);
@@ -81,19 +81,22 @@ inline constexpr int most_detours = 32;
 [[nodiscard]] inline bool is_hardly_beside(Point a, Point b, Point p, double slack = 1) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
-  const double area = dx * (p.y - a.y) - dy * (p.x - a.x);
+  const double left = dx * (p.y - a.y);
+  const double right = dy * (p.x - a.x);
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
-  if (std::abs(area) > slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy)))
-    return false;
-  return is_alongside(a, b, p);
+  const double bound = slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy)) +
+                       detail::orient_bound * (std::abs(left) + std::abs(right));
+  return std::abs(left - right) <= bound && is_alongside(a, b, p);
 }
 
 /// Whether p is so near to the line ab, or to a or b, that others may be hardly beside it.
 [[nodiscard]] inline bool is_crowding(Point a, Point b, Point p) {
-  const double area = (a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x);
+  const double left = (a.x - p.x) * (b.y - p.y);
+  const double right = (a.y - p.y) * (b.x - p.x);
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
-  return std::abs(area) <= 2 * crowded_rounding * reach *
-                               (std::abs(b.x - a.x) + std::abs(b.y - a.y));
+  return std::abs(left - right) <=
+         2 * crowded_rounding * reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y)) +
+             detail::orient_bound * (std::abs(left) + std::abs(right));
 }
 
 /// Whether q comes after p on the way from a to b, where both are on that line but for correct

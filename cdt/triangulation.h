@@ -555,12 +555,12 @@ class Triangulation {
   Locator locator_;
   EdgeId last_;
   std::size_t vertex_count_ = 0;
-  VertexId reserved_;      // the number of the next vertex, where that is not the first free one
-  VertexId only_;          // the only vertex, while there is just one
-  std::size_t flips_ = 0;  // since insert_points() began
-  bool is_flat_ = true;    // no finite triangle yet: all vertices in one line
-  bool has_bends_ = false;     // segments may lead through points of others that are not on them
-  bool has_crowds_ = false;    // vertices may be hardly apart
+  VertexId reserved_;        // the number of the next vertex, where that is not the first free one
+  VertexId only_;            // the only vertex, while there is just one
+  std::size_t flips_ = 0;    // since insert_points() began
+  bool is_flat_ = true;      // no finite triangle yet: all vertices in one line
+  bool has_bends_ = false;   // segments may lead through points of others that are not on them
+  bool has_crowds_ = false;  // vertices may be hardly apart
   bool is_surrounded_ = true;  // what fan_out() came by: constrained edges, vertices hardly apart
   bool is_recording_ = false;
   Changes changes_;

@@ -157,7 +157,7 @@ INSTANTIATE_TEST_SUITE_P(, Areas,
                          });
 
 // Whole rooms went with the corridor's wall, which was led away from it.
-TEST(Areas, OfRoomsAlongACorridor) {
+TEST(Regions, OfRoomsAlongACorridor) {
   for (int rooms = 1; rooms <= 12; ++rooms) {
     // A wall from (-1.2, 2.4) along (0.6, 1.8), a corridor on one side and rooms on the other, in
     // steps that are rounded to decimals.
