@@ -67,7 +67,8 @@ bool Triangulation::settle_around(VertexId v) {
       settle_around(v);
       return false;
     }
-    is_crowded |= is_crowding(point(from(around)), point(to(around)), place);
+    is_crowded |= is_crowding(point(from(around)), point(to(around)), place) ||
+                  are_hardly_apart(place, point(from(around)), crowded_rounding);
     e = rotated(e);
   } while (e != first);
   settle_pieces();
@@ -336,12 +337,15 @@ void Triangulation::lay_between(VertexId at, VertexId stop, SegmentId s) {
       goals_.push_back(detour(obstacle.edge, at, goal, s));
       continue;
     }
+    if (obstacle.kind == Obstacle::Kind::confusion) return;  // cannot be: the line is from `at`
     const bool is_edge = obstacle.kind == Obstacle::Kind::edge_along;
     const EdgeId e = is_edge ? obstacle.edge : force_edge(at, obstacle.vertex);
     mark(e, s);
     unsettled_.emplace_back(at, to(e));
     at = to(e);
-    if (at != goal) doubt(s, point(at));
+    if (at == goal) continue;
+    doubt(s, point(at));
+    ++detours;
   }
 }
 

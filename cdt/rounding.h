@@ -45,9 +45,9 @@ inline constexpr int most_detours = 32;
 }
 
 /// Whether two places are so near that rounding may have exchanged them along a line.
-[[nodiscard]] inline bool are_hardly_apart(Point p, Point q) {
+[[nodiscard]] inline bool are_hardly_apart(Point p, Point q, double slack = doubtful_rounding) {
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
-  return std::abs(p.x - q.x) + std::abs(p.y - q.y) <= doubtful_rounding * reach;
+  return std::abs(p.x - q.x) + std::abs(p.y - q.y) <= slack * reach;
 }
 
 /// Whether p is beside the segment ab, however far, and not before or behind it.

@@ -323,6 +323,8 @@ inline bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, Verte
 void Triangulation::fan_out(VertexId v) {
   TriangleId t = triangle(edge(v));
   const VertexId first = from(edge(t, 0));
+  const Point place = point(v);
+  const bool has_segments = !segments_.empty();
   is_surrounded_ = false;
   for (;;) {
     const EdgeId e = edge(t, 0);
@@ -336,7 +338,8 @@ void Triangulation::fan_out(VertexId v) {
         continue;
       }
     }
-    is_surrounded_ |= is_crowding(point(from(e)), point(to(e)), point(v));
+    is_surrounded_ |= has_segments ? is_crowding(point(from(e)), point(to(e)), place)
+                                   : are_hardly_apart(place, point(from(e)), crowded_rounding);
     t = triangle(twin(edge(t, 1)));
     if (from(edge(t, 0)) == first) break;
   }
