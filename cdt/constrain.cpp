@@ -343,12 +343,15 @@ void Triangulation::reroute(EdgeId e, VertexId through) {
   restore_delaunay();
 }
 
-/// The last resort: marks the existing edges left of the straight line. Always possible.
+/// The last resort: marks the existing edges left of the straight line. Always possible, but where
+/// numbers are so tiny, in what was loaded, that exact arithmetic underflows.
 void Triangulation::follow_corridor(VertexId at, VertexId goal, SegmentId s) {
+  std::size_t steps = 0;
   while (at != goal) {
     Obstacle obstacle{};
     EdgeId e = first_crossed(at, goal, point(at), point(goal), obstacle);
     if (e.is_none()) {
+      if (obstacle.kind != Obstacle::Kind::edge_along || ++steps > edge_bound()) return;
       mark(obstacle.edge, s);
       at = to(obstacle.edge);
       continue;
@@ -359,6 +362,7 @@ void Triangulation::follow_corridor(VertexId at, VertexId goal, SegmentId s) {
     for (;;) {  // e goes from right to left, `at` is its left end
       const EdgeId f = twin(e);
       const VertexId ahead = apex(f);
+      if (ahead == infinite || ++steps > edge_bound()) return;
       const int side = ahead == goal ? 0 : orient(start, point(goal), point(ahead));
       if (side >= 0) {
         mark(twin(prev(f)), s);

@@ -231,8 +231,9 @@ void Triangulation::trace(SegmentId s, Visit visit) const {
       e = rotated(e);
     } while (e != first);
   };
+  std::size_t steps = 0;  // where exact arithmetic has underflowed there may be no end
   VertexId at = segment.from;
-  while (at != segment.to) {
+  while (at != segment.to && ++steps <= edge_bound()) {
     visit_star(at);
     Obstacle obstacle{};
     EdgeId e = first_crossed(at, segment.to, a, b, obstacle);
@@ -245,7 +246,7 @@ void Triangulation::trace(SegmentId s, Visit visit) const {
       visit(e);
       const EdgeId f = twin(e);
       const VertexId ahead = apex(f);
-      if (ahead == infinite) return;
+      if (ahead == infinite || ++steps > edge_bound()) return;
       const int side = ahead == segment.to ? 0 : orient(a, b, point(ahead));
       if (side == 0) {
         at = ahead;
