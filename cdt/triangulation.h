@@ -49,8 +49,8 @@ struct Polyline {
   Ends ends = open;
 };
 
-/// Where rounding decides: a segment that goes through a vertex which is not on it, or that misses
-/// one which is, because three lines (or two lines and a point) are within rounding of one place.
+/// Where rounding decides: a segment that goes through a vertex although none of its points rounds
+/// to that, because its way, being rounded, is on the wrong side of it.
 struct Snap {
   SegmentId segment;
   Point place;
@@ -67,11 +67,15 @@ struct Snap {
 ///
 /// Guarantees. All decisions are exact. Every triangle is counter-clockwise; every edge without
 /// passage is constrained Delaunay, ties broken by the coordinates alone (in_circle_perturbed).
-/// Crossing points are computed from the two segments as inserted and correctly rounded. So the
-/// triangulation is a function of the set of constraints, whatever the order in which they came,
-/// moved and went. Where rounding would turn a triangle over, a segment goes through a vertex
-/// nearby instead: then the result is as valid, but may depend on that order; snaps() lists these
-/// places. It never fails and never hangs.
+/// Crossing points are computed from the two segments as inserted and correctly rounded, and a
+/// segment leads through the vertices that one of its points rounds to (predicates.h, rounds_to):
+/// snap rounding. So the triangulation is a function of the set of constraints, whatever the order
+/// in which they came, moved and went, and every vertex on a segment's way is within half a unit in
+/// the last place of it. Where doubles are much closer to each other than where the segment was
+/// rounded, near 0, it may have to lead through others between it and its rounded way: snaps()
+/// lists these places, where the result may depend on the order. No vertex on the way is further
+/// from the segment than 2^-50 of its largest coordinate; check() tests that. It never fails and
+/// never hangs.
 ///
 /// Epsilon. With an epsilon above zero, a point no further than that from a vertex is that vertex,
 /// one no further than that from a segment is on it, and a segment passing a vertex no further than

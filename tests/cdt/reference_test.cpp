@@ -74,21 +74,6 @@ TEST(Reference, LeadsThroughWhatAPointOfASegmentRoundsTo) {
   EXPECT_EQ(picture.lines.size(), 2U);
 }
 
-TEST(Reference, SeesWhereRoundingLeavesNoAnswer) {
-  // Far away the long line is bent by more than what is between it and the point near 0.
-  const Outline line{{{-1000, -300.1}, {1001, 300.4}}, open};
-  const Outline across{{{700, 0}, {700.1, 500}}, open};
-  bool is_always_embeddable = true;
-  for (int i = -60; i <= 60; ++i) {
-    const Point near{0,
-                     intersection({-1000, -300.1}, {1001, 300.4}, {0, -1}, {0, 1}).y + i * 1e-15};
-    const Outline point{{near}, open};
-    EXPECT_TRUE(Reference(std::vector{line, point}).is_embeddable());
-    is_always_embeddable &= Reference(std::vector{line, across, point}).is_embeddable();
-  }
-  EXPECT_FALSE(is_always_embeddable);
-}
-
 TEST(Reference, CoversTheHullWithCounterClockwiseTriangles) {
   for (const Ground ground : {Ground::grid_8, Ground::grid_4, Ground::decimals}) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
