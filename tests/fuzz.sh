@@ -14,7 +14,7 @@ seed=${2:-0}  # 0: drawn by libFuzzer, which prints it
 [ $# -gt 2 ] && shift 2 || set -- $(ls tests/fuzz/corpus)
 
 sh setup.sh fuzz
-cmake --preset fuzz -DLOFT_TESTS=ON -DLOFT_SAMPLES=OFF -DLOFT_PROGRAM=OFF
+cmake --preset fuzz -DLOFT_TESTS=ON -DLOFT_SAMPLES=OFF
 cmake --build --preset fuzz --target $(printf 'fuzz_%s ' "$@")
 
 share=$((seconds / $#))
