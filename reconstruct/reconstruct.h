@@ -43,7 +43,7 @@ class Cancelled : public Error {
 /// Slices may come in any order of height; those of equal height are merged. Leading and trailing
 /// empty slices are left out.
 /// Throws InputError with all fatal defects: a coordinate that is not finite or of no usable size
-/// (cdt::Triangulation::is_usable), slices so near to one another that rounding leaves nothing
+/// (mesh/admitted.h), slices so near to one another that rounding leaves nothing
 /// between them, fewer than two slices with an area; link orders that no stack could meet
 /// (find_bad_orders()), edge lengths that ask for too many triangles (split_long_edges()).
 /// Cost: O(n log n) for n contour points, in practice; memory in proportion to the result.

@@ -3,9 +3,11 @@
 // beyond it is refused with its place, the largest and smallest make a surface that can be checked.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -74,11 +76,12 @@ TEST(Doors, StacksRefuseNumbersWithTheirPlaces) {
     for (const LinkRule link : {LinkRule::automatic, LinkRule::overlap, LinkRule::none}) {
       auto slices = prism(0, 1, {1, 1}, 2);
       slices[1].z = bad;
-      expect_named(refusal([&] { reconstruct(slices, {.link = link}); }), "slice 1 (z = ", bad);
+      expect_named(refusal([&] { static_cast<void>(reconstruct(slices, {.link = link})); }),
+                   "slice 1 (z = ", bad);
       for (double Point::*axis : {&Point::x, &Point::y}) {
         slices = prism(0, 1, {1, 1}, 2);
         slices[1].contours[0].points[2].*axis = bad;
-        expect_named(refusal([&] { reconstruct(slices, {.link = link}); }),
+        expect_named(refusal([&] { static_cast<void>(reconstruct(slices, {.link = link})); }),
                      "slice 1 (z = 1) contour 0 point 2: a coordinate", bad);
       }
     }
@@ -118,13 +121,17 @@ TEST(Doors, OptionsRefuseLengthsByName) {
       Options options;
       options.*door.option = value;
       expect_named(refusal([&] {
-                     reconstruct(prism(0, 1, {1, 1}, 2), options);
+                     static_cast<void>(reconstruct(prism(0, 1, {1, 1}, 2), options));
                    }),
                    door.name, value);
     }
     Options options;
     options.*door.option = admitted::length.largest;
-    EXPECT_EQ(refusal([&] { reconstruct(prism(0, 1, {1, 1}, 2), options); }), "") << door.name;
+    EXPECT_EQ(refusal([&] {
+                static_cast<void>(reconstruct(prism(0, 1, {1, 1}, 2), options));
+              }),
+              "")
+        << door.name;
   }
 }
 
