@@ -3,8 +3,9 @@
 
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <system_error>
+
+#include "mesh/admitted.h"
 
 namespace loft::app {
 
@@ -22,7 +23,7 @@ std::optional<double> metres_per_unit(std::string_view unit) {
   double metres = 0;
   const auto [end, error] = std::from_chars(unit.data(), unit.data() + unit.size(), metres);
   if (error != std::errc() || end != unit.data() + unit.size()) return std::nullopt;
-  if (!std::isfinite(metres) || metres <= 0) return std::nullopt;
+  if (metres <= 0 || !admitted::unit.admits(metres)) return std::nullopt;
   return metres;
 }
 

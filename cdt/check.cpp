@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "cdt/predicates.h"
+#include "cdt/rounding.h"
 
 namespace loft::cdt {
 
@@ -78,6 +79,27 @@ void check_delaunay(const Triangulation& mesh, Findings& findings) {
   }
 }
 
+/// Names the first vertex on the way of a segment that is too far from it.
+void check_line(const Triangulation& mesh, SegmentId s, const std::vector<EdgeId>& pieces,
+                Findings& findings) {
+  const Point a = mesh.point(mesh.segment(s).from);
+  const Point b = mesh.point(mesh.segment(s).to);
+  const auto is_astray = [&](EdgeId e) {
+    const VertexId v = mesh.to(e);
+    const Point p = mesh.point(v);
+    return !rounds_to(a, b, p) && exact_distance(a, b, p) > most_astray(a, b) &&
+           !mesh.has_own_point(v);
+  };
+  const auto found = std::ranges::find_if(pieces, is_astray);
+  if (found == pieces.end()) return;
+  const VertexId v = mesh.to(*found);
+  std::ostringstream message;
+  message << s << " from " << mesh.segment(s).from << " to " << mesh.segment(s).to
+          << " leads through " << v << ", which is off its line by "
+          << exact_distance(a, b, mesh.point(v));
+  findings.push_back({Fault::astray, EdgeId::none(), s, message.str()});
+}
+
 void check_cover(const Triangulation& mesh, Findings& findings) {
   for (std::uint32_t i = 0; i < mesh.segment_bound(); ++i) {
     const SegmentId s(i);
@@ -85,7 +107,10 @@ void check_cover(const Triangulation& mesh, Findings& findings) {
     const Segment& segment = mesh.segment(s);
     if (segment.from == segment.to) continue;
     const auto pieces = mesh.pieces(s);
-    if (!pieces.empty() && mesh.to(pieces.back()) == segment.to) continue;
+    if (!pieces.empty() && mesh.to(pieces.back()) == segment.to) {
+      if (mesh.epsilon() == 0) check_line(mesh, s, pieces, findings);
+      continue;
+    }
     std::ostringstream message;
     message << s << " from " << segment.from << " to " << segment.to << " ends after "
             << pieces.size() << " pieces";

@@ -8,16 +8,9 @@
 
 namespace loft::cdt {
 
-namespace {
-
-/// A segment may be led astray by rounding that often before it settles for existing edges.
-constexpr int most_detours = 32;
-
-}  // namespace
-
 /// KBT, insert_segment: from vertex to vertex towards the end, splitting the constrained edges in
 /// the way. Crossings are rounded and so a little beside the line; which one comes next is for the
-/// line as inserted to say, so that the answer does not depend on the vertices that are there.
+/// line as inserted to say. Wherever that is in doubt lay_through() finds its way with more effort.
 void Triangulation::lay(SegmentId s) {
   const Segment segment = this->segment(s);
   if (segment.from == segment.to) return;
@@ -25,103 +18,112 @@ void Triangulation::lay(SegmentId s) {
     lay_crooked(s, segment.from);
     return;
   }
+  const bool is_clear = !(has_bends_ || has_crowds_) || (!misses_something_at(segment.from, s) &&
+                                                         !misses_something_at(segment.to, s));
+  if (!is_clear || !lay_straight(s)) lay_through(s);
+}
+
+/// What lay() does where nothing is in doubt. If something is, the rest is left.
+bool Triangulation::lay_straight(SegmentId s) {
+  const Segment segment = this->segment(s);
   if (const EdgeId e = edge_between(segment.from, segment.to); !e.is_none()) {
     mark(e, s);
-    return;
+    return settle_piece(e, s);
   }
   const Point a = point(segment.from);
   const Point b = point(segment.to);
   VertexId at = segment.from;
   while (at != segment.to) {
     const Obstacle obstacle = walk(at, segment.to, a, b);
-    VertexId ahead = obstacle.vertex;
     const std::size_t vertices = vertex_count_;
+    VertexId ahead = obstacle.vertex;
+    EdgeId piece = obstacle.edge;
     switch (obstacle.kind) {
       case Obstacle::Kind::edge_along:
-        ahead = to(obstacle.edge);
-        mark(obstacle.edge, s);
+        ahead = to(piece);
+        mark(piece, s);
         break;
       case Obstacle::Kind::constrained_edge:
-        ahead = meet(obstacle.edge, s);
-        if (ahead.is_none() || ahead == at || !connect(at, ahead, s)) {
-          lay_crooked(s, at, ahead);
-          return;
-        }
+        ahead = meet(piece, s);
+        if (ahead.is_none() || ahead == at) return false;
+        piece = connect(at, ahead, s);
         break;
       case Obstacle::Kind::vertex:
         if (at == segment.from) {
-          mark(force_edge(at, ahead), s);
-        } else if (!connect(at, ahead, s)) {
-          lay_crooked(s, at, ahead);
-          return;
+          piece = force_edge(at, ahead);
+          mark(piece, s);
+        } else {
+          piece = connect(at, ahead, s);
         }
         break;
       case Obstacle::Kind::confusion:
-        lay_crooked(s, at);
-        return;
+        return false;
     }
-    if (!is_ahead(point(at), point(ahead), a, b)) {
-      lay_crooked(s, ahead);
-      return;
-    }
-    const bool is_crossing = uses_[at.index()] == 0 || uses_[ahead.index()] == 0;
-    if (is_crossing) doubt_beside(at, ahead, s);
+    if (piece.is_none() || !is_ahead(point(at), point(ahead), a, b)) return false;
     const bool is_new = vertex_count_ > vertices;
-    if (ahead != segment.to && !is_new) doubt_crossings_at(ahead, s);
+    if (ahead != segment.to && !is_new && misses_something_at(ahead, s)) return false;
+    if (!settle_piece(piece, s)) return false;
     at = ahead;
   }
+  return true;
 }
 
-/// Notes if rounding may have put something on the wrong side of a piece of s between crossings.
-void Triangulation::doubt_beside(VertexId from, VertexId to, SegmentId s) {
-  if (are_hardly_apart(point(from), point(to))) doubt(s, point(to));
-  const EdgeId e = edge_between(to, from);
-  if (e.is_none()) return;
-  for (const VertexId v : {apex(e), apex(twin(e))})
-    if (v != infinite && is_hardly_beside(point(from), point(to), point(v))) doubt(s, point(v));
-}
-
-/// The vertex at which s goes through the constrained edge e: an end of it, a vertex beside it
-/// that is at the very place, or a new one. None where rounding leaves no room for one.
+/// The vertex at which s goes through the constrained edge e: an end of it or a new one. None where
+/// that is in doubt.
 VertexId Triangulation::meet(EdgeId e, SegmentId s) {
-  const std::optional<Point> place = crossing_point(e, s);
+  const std::optional<Point> place = common_crossing(e, s);
   if (!place) return VertexId::none();
   for (const VertexId end : {from(e), to(e)}) {
     if (point(end) != *place) continue;
-    doubt_point_beside(end, s);
+    has_bends_ = true;
     return end;
   }
-  for (const VertexId beside : {apex(e), apex(twin(e))}) {
-    if (beside == infinite || point(beside) != *place) continue;
-    doubt_point_beside(beside, s);
-    for (const Passage passage : passages(e)) doubt_point_beside(beside, passage.segment());
-    reroute(e, beside);
-    return beside;
-  }
   if (!can_split(e, *place)) return VertexId::none();
-  for (const VertexId end : {from(e), to(e)}) {
-    if (!are_hardly_apart(point(end), *place)) continue;
-    for (const Passage passage : passages(e)) doubt(passage.segment(), *place);
-    doubt(s, *place);
+  const VertexId v = split_edge_at(e, *place);
+  return settle_around(v) ? v : VertexId::none();
+}
+
+/// Where s crosses all segments along e, if that is one place.
+std::optional<Point> Triangulation::common_crossing(EdgeId e, SegmentId s) const {
+  const auto [a, b] = ends_of(s);
+  std::optional<Point> place;
+  for (const Passage passage : passages(e)) {
+    const auto [c, d] = ends_of(passage.segment());
+    if (!crosses(a, b, c, d)) return {};
+    const Point here = intersection(a, b, c, d);
+    if (place && here != *place) return {};
+    place = here;
   }
-  return split_edge_at(e, *place);
+  return place;
 }
 
-/// Notes if s goes through a crossing of others without crossing all of them at that very place.
-void Triangulation::doubt_crossings_at(VertexId v, SegmentId s) {
-  if (uses_[v.index()] > 0) return;
-  gather_segments(v);
-  const bool agrees = std::ranges::all_of(around_, [&](SegmentId other) {
-    return other == s || runs_along(other, s) || crosses_at(other, s, point(v));
-  });
-  if (!agrees) doubt(s, point(v));
+/// Whether s, which goes through a vertex, crosses another one that does so elsewhere, being led
+/// there by rounding alone; or whether it has to go through a vertex hardly beside this one.
+bool Triangulation::misses_something_at(VertexId v, SegmentId s) const {
+  const bool is_end = ends_at(s, v);  // what ends there, too, does not cross s
+  const Point place = point(v);
+  const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    const Point beside = point(to(e));
+    if (has_crowds_ && std::abs(beside.x - place.x) + std::abs(beside.y - place.y) <= near &&
+        rounds_to(point(segment(s).from), point(segment(s).to), beside))
+      return true;
+    for (const Passage passage : passages(e))
+      if (!(is_end && ends_at(passage.segment(), v)) &&
+          crosses_elsewhere(s, passage.segment(), place))
+        return true;
+    e = rotated(e);
+  } while (e != first);
+  return false;
 }
 
-/// Whether two segments are on one line.
-bool Triangulation::runs_along(SegmentId one, SegmentId other) const {
+/// Whether two segments cross, but not at this place.
+bool Triangulation::crosses_elsewhere(SegmentId one, SegmentId other, Point place) const {
   const auto [a, b] = ends_of(one);
   const auto [c, d] = ends_of(other);
-  return orient(a, b, c) == 0 && orient(a, b, d) == 0;
+  return crosses(a, b, c, d) && intersection(a, b, c, d) != place;
 }
 
 /// Whether two segments cross at a place, rounded.
@@ -133,25 +135,16 @@ bool Triangulation::crosses_at(SegmentId one, SegmentId other, Point place) cons
   return crossing == place || (epsilon_ > 0 && distance(crossing, place) <= epsilon_);
 }
 
-/// Notes that a segment goes through a point which rounding alone puts on it: what else ends there
-/// may cross it hardly apart.
-void Triangulation::doubt_point_beside(VertexId v, SegmentId s) {
-  if (uses_[v.index()] == 0) return;
-  const auto [a, b] = ends_of(s);
-  if (orient(a, b, point(v)) != 0) doubt(s, point(v));
-}
-
-/// Makes and marks the straight edge between two vertices if nothing is between them.
-bool Triangulation::connect(VertexId from, VertexId to, SegmentId s) {
-  EdgeId e = edge_between(to, from);
-  if (!e.is_none()) {
-    mark(twin(e), s);
-    return true;
+/// Makes and marks the straight edge between two vertices; none if something is between them.
+EdgeId Triangulation::connect(VertexId from, VertexId to, SegmentId s) {
+  EdgeId e = edge_between(from, to);
+  if (e.is_none()) {
+    const Obstacle obstacle = walk(from, to, point(from), point(to));
+    if (obstacle.kind != Obstacle::Kind::vertex || obstacle.vertex != to) return EdgeId::none();
+    e = force_edge(from, to);
   }
-  const Obstacle obstacle = walk(from, to, point(from), point(to));
-  if (obstacle.kind != Obstacle::Kind::vertex || obstacle.vertex != to) return false;
-  mark(force_edge(from, to), s);
-  return true;
+  mark(e, s);
+  return e;
 }
 
 /// Adds a passage of s along e, in the direction of e.
@@ -216,17 +209,14 @@ EdgeId Triangulation::first_crossed(VertexId from, VertexId to, Point a, Point b
   return found;
 }
 
-// --- Where rounding decides ---
+// --- With an epsilon ---
 
-/// The way of last resort: to each vertex on the way straight from the one before, wherever that
-/// is. A split point is off the straight line by its rounding, so each becomes a goal of its own
-/// that is walked to anew. With an epsilon this is the only way, as vertices nearby are goals, too;
-/// then each step must lead on along the segment, but for a few.
-void Triangulation::lay_crooked(SegmentId s, VertexId at, VertexId via) {
+/// To each vertex on the way straight from the one before, wherever that is, and to vertices
+/// nearby. A split point is off the straight line by its rounding, so each becomes a goal of its
+/// own that is walked to anew. Each step must lead on along the segment, but for a few.
+void Triangulation::lay_crooked(SegmentId s, VertexId at) {
   const Segment segment = this->segment(s);
-  if (epsilon_ == 0) doubt(s, point(at));
   goals_.assign(1, segment.to);
-  if (!via.is_none()) goals_.push_back(via);
   int detours = 0;
   while (!goals_.empty()) {
     const VertexId goal = goals_.back();
@@ -241,12 +231,10 @@ void Triangulation::lay_crooked(SegmentId s, VertexId at, VertexId via) {
       return;
     }
     const Obstacle obstacle = walk(at, goal, point(at), point(goal));
-    if (epsilon_ > 0) {
-      const VertexId nearby = nearby_before(goal, at, s, obstacle);
-      if (!nearby.is_none()) {
-        goals_.push_back(nearby);
-        continue;
-      }
+    const VertexId nearby = nearby_before(goal, at, s, obstacle);
+    if (!nearby.is_none()) {
+      goals_.push_back(nearby);
+      continue;
     }
     const double before = along(s, at);
     switch (obstacle.kind) {
@@ -257,7 +245,7 @@ void Triangulation::lay_crooked(SegmentId s, VertexId at, VertexId via) {
       case Obstacle::Kind::constrained_edge: {
         const std::size_t doubts = snaps_.size();
         const VertexId crossing = cross(obstacle.edge, s);
-        const bool leads_on = crossing != at && (epsilon_ == 0 || along(s, crossing) > before);
+        const bool leads_on = crossing != at && along(s, crossing) > before;
         if (snaps_.size() > doubts || !leads_on) ++detours;
         goals_.push_back(crossing);
         break;
@@ -270,8 +258,7 @@ void Triangulation::lay_crooked(SegmentId s, VertexId at, VertexId via) {
         follow_corridor(at, segment.to, s);
         return;
     }
-    if (epsilon_ > 0 && obstacle.kind != Obstacle::Kind::constrained_edge && along(s, at) <= before)
-      ++detours;
+    if (obstacle.kind != Obstacle::Kind::constrained_edge && along(s, at) <= before) ++detours;
   }
 }
 
@@ -356,12 +343,15 @@ void Triangulation::reroute(EdgeId e, VertexId through) {
   restore_delaunay();
 }
 
-/// The last resort: marks the existing edges left of the straight line. Always possible.
+/// The last resort: marks the existing edges left of the straight line. Always possible, but where
+/// numbers are so tiny, in what was loaded, that exact arithmetic underflows.
 void Triangulation::follow_corridor(VertexId at, VertexId goal, SegmentId s) {
+  std::size_t steps = 0;
   while (at != goal) {
     Obstacle obstacle{};
     EdgeId e = first_crossed(at, goal, point(at), point(goal), obstacle);
     if (e.is_none()) {
+      if (obstacle.kind != Obstacle::Kind::edge_along || ++steps > edge_bound()) return;
       mark(obstacle.edge, s);
       at = to(obstacle.edge);
       continue;
@@ -372,6 +362,7 @@ void Triangulation::follow_corridor(VertexId at, VertexId goal, SegmentId s) {
     for (;;) {  // e goes from right to left, `at` is its left end
       const EdgeId f = twin(e);
       const VertexId ahead = apex(f);
+      if (ahead == infinite || ++steps > edge_bound()) return;
       const int side = ahead == goal ? 0 : orient(start, point(goal), point(ahead));
       if (side >= 0) {
         mark(twin(prev(f)), s);

@@ -21,6 +21,8 @@ template <class... Words>
 class Persistence::Examination {
  public:
   static void of_all(Triangulation& mesh) {
+    mesh.has_bends_ = true;  // for all that is known
+    mesh.has_crowds_ = true;
     examine_constraints(mesh);
     examine_blocks(mesh);
     examine_vertices(mesh);

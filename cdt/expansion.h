@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstddef>
 
@@ -94,8 +95,13 @@ class Expansion {
   }
 
   /// Adds a term that does not overlap the ones there and is larger than they are; 0 adds nothing.
+  /// Where something has overflowed nothing is exact any more: infinities and what is not a number
+  /// are dropped, and so is what would be one term too many.
   void append(double term) {
-    if (term != 0) terms_[size_++] = term;
+    if (term == 0) return;
+    const bool fits = size_ < N && std::isfinite(term);
+    assert(fits && "exact arithmetic has overflowed");
+    if (fits) terms_[size_++] = term;
   }
 
  private:

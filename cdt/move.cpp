@@ -81,6 +81,13 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     if (has_moved(v)) push_around(v);
   for (const VertexId v : inserted_) uses_[v.index()] &= ~moved;
   restore_delaunay();
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const Segment& segment = segments_[first + i];
+    if (!stays_[i] || still_.size() == n) continue;
+    const SegmentId s(first + i);
+    const EdgeId e = edge_between(segment.from, segment.to);
+    if (!e.is_none() && !settle_piece(e, s)) crowded_.push_back(s);
+  }
 
   for (const std::uint32_t i : still_) {
     const std::uint32_t before = i > 0 ? i - 1 : constraint.is_closed ? count - 1 : count;
@@ -106,6 +113,7 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     segments_[first + i].from = inserted_[i];
     segments_[first + i].to = inserted_[i + 1 < n ? i + 1 : 0];
   }
+  if (!crowded_.empty()) lay_crowded();
   for (std::uint32_t i = 0; i < count; ++i)
     if (!stays_[i]) lay(SegmentId(first + i));
   if (!loose_.empty()) settle_loose();
@@ -134,7 +142,8 @@ bool Triangulation::is_plain(SegmentId s) const {
          passages(e)[0].segment() == s;
 }
 
-/// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise.
+/// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise, and no
+/// segment beside it has to lead through it.
 bool Triangulation::move_vertex(VertexId v, Point p) {
   if (uses_[v.index()] != 1) return false;
   const EdgeId first = edge(v);
@@ -145,8 +154,7 @@ bool Triangulation::move_vertex(VertexId v, Point p) {
     const EdgeId opposite = next(e);
     const VertexId a = from(opposite);
     const VertexId b = to(opposite);
-    if (a == infinite || b == infinite || orient(point(a), point(b), p) <= 0) return false;
-    if (is_constrained(opposite) && is_hardly_beside(point(a), point(b), p)) return false;
+    if (a == infinite || b == infinite || !is_clearly_left(point(a), point(b), p)) return false;
     e = rotated(e);
   } while (e != first);
   do {

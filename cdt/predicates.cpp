@@ -117,6 +117,12 @@ std::optional<double> rounded_quotient(const Approximate& numerator,
 
 bool is_odd(double value) { return (std::bit_cast<std::uint64_t>(value) & 1) != 0; }
 
+/// Half of the way to the next double in the direction of a sign.
+double half_step(double x, int direction) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  return direction == 0 ? 0 : (std::nextafter(x, direction * infinity) - x) / 2;
+}
+
 /// A fraction, and its value rounded to double.
 struct Quotient {
   Expansion<64> numerator;
@@ -180,6 +186,20 @@ int in_circle_exact(Point a, Point b, Point c, Point d) {
   return circle_determinant(exact(ad), exact(bd), exact(cd)).sign();
 }
 
+/// What rounds to p is a rectangle around it, its edges included where p is even. If p is left of
+/// the line, that one comes nearest to the right of it with one corner.
+bool rounds_to_exact(Point a, Point b, Point p) {
+  const auto area = cross(exact(difference(a, p)), exact(difference(b, p)));
+  const int side = area.sign();
+  if (side == 0 || p == a || p == b) return true;
+  const auto way = exact(difference(b, a));
+  const int right = side * way.y.sign();
+  const int down = -side * way.x.sign();
+  const auto moved = area + (way.x * half_step(p.y, down) - way.y * half_step(p.x, right));
+  if (moved.sign() == 0) return !is_odd(p.x) && !is_odd(p.y);
+  return moved.sign() != side;
+}
+
 /// in_circle is the sign of the determinant with the rows (x, y, height, 1) of a, b, c and d.
 /// Raising one point's height changes it in proportion to its cofactor: the orientation of the
 /// other three points, with alternating sign. The point raised most decides, unless its cofactor
@@ -212,6 +232,21 @@ int compare_distances(Point p, Point a, Point b) {
   const auto to_a = squared_length(exact(difference(a, p)));
   const auto to_b = squared_length(exact(difference(b, p)));
   return (to_a - to_b).sign();
+}
+
+double exact_distance(Point a, Point b, Point p) {
+  const auto from_a = exact(difference(p, a));
+  const auto from_b = exact(difference(p, b));
+  const auto way = exact(difference(b, a));
+  const auto is_ahead = [&](const ExactVector& v) {
+    return (v.x * way.x + v.y * way.y).sign() > 0;
+  };
+  const auto length = [](const ExactVector& v) {
+    return std::hypot(v.x.estimate(), v.y.estimate());
+  };
+  if (!is_ahead(from_a)) return length(from_a);
+  if (is_ahead(from_b)) return length(from_b);
+  return std::abs(cross(from_a, way).estimate()) / length(way);
 }
 
 bool crosses(Point a, Point b, Point c, Point d) {

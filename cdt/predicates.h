@@ -43,6 +43,15 @@ namespace loft::cdt {
 /// Precondition: the lines are not parallel.
 [[nodiscard]] Point intersection(Point a, Point b, Point c, Point d);
 
+/// Whether a point of the segment ab rounds to p: each coordinate to nearest, even. Exact. Laws:
+/// true for a and b, for what is exactly on the segment, and for the intersection of two segments
+/// that cross; the same for ba as for ab. Of all that round to them, two segments meet the points
+/// in the order of both coordinates.
+[[nodiscard]] bool rounds_to(Point a, Point b, Point p);
+
+/// How far p is from the segment ab: off by less than 2^-50 of that.
+[[nodiscard]] double exact_distance(Point a, Point b, Point p);
+
 namespace detail {
 
 /// The largest relative error of one rounded operation.
@@ -64,6 +73,8 @@ inline constexpr double in_circle_bound = 12 * rounding;
 /// The predicates without filter: for what that cannot decide.
 [[nodiscard]] int orient_exact(Point a, Point b, Point c);
 [[nodiscard]] int in_circle_exact(Point a, Point b, Point c, Point d);
+/// rounds_to where p is no further than a and b in any direction.
+[[nodiscard]] bool rounds_to_exact(Point a, Point b, Point p);
 /// in_circle_perturbed for four points of which in_circle says 0.
 [[nodiscard]] int break_tie(Point a, Point b, Point c, Point d);
 
@@ -77,6 +88,21 @@ inline int orient(Point a, Point b, Point c) {
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
   return detail::orient_exact(a, b, c);
+}
+
+inline bool rounds_to(Point a, Point b, Point p) {
+  const auto is_between = [](double from, double to, double x) {
+    return from <= to ? from <= x && x <= to : to <= x && x <= from;
+  };
+  if (!is_between(a.x, b.x, p.x) || !is_between(a.y, b.y, p.y)) return false;
+  const double left = (a.x - p.x) * (b.y - p.y);
+  const double right = (a.y - p.y) * (b.x - p.x);
+  // As in orient; and what rounds to p is no further than `rounding` of each coordinate.
+  const double bound =
+      detail::orient_bound * (std::abs(left) + std::abs(right)) +
+      2 * detail::rounding *
+          (std::abs(p.x) * std::abs(b.y - a.y) + std::abs(p.y) * std::abs(b.x - a.x));
+  return std::abs(left - right) <= bound && detail::rounds_to_exact(a, b, p);
 }
 
 inline int in_circle(Point a, Point b, Point c, Point d) {

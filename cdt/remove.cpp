@@ -126,13 +126,18 @@ void Triangulation::release_points(ConstraintId id) {
 
 /// Decides about each vertex that lost something, then lays again what that took off.
 void Triangulation::settle_loose() {
-  restore_delaunay();
-  keep_each_once(loose_);
-  // Others may be added on the way.
-  for (std::size_t i = 0; i < loose_.size(); ++i)
-    if (is_vertex(loose_[i])) examine(loose_[i]);
-  loose_.clear();
-  lay_again();
+  constexpr int most_rounds = 8;  // what is laid again may make vertices in vain
+  for (int round = 0; round == 0 || (round < most_rounds && !loose_.empty()); ++round) {
+    restore_delaunay();
+    if (!crowded_.empty()) lay_crowded();
+    keep_each_once(loose_);
+    // Others may be added on the way.
+    for (std::size_t i = 0; i < loose_.size(); ++i)
+      if (is_vertex(loose_[i])) examine(loose_[i]);
+    loose_.clear();
+    lay_again();
+    if (!crowded_.empty()) lay_crowded();
+  }
 }
 
 /// A vertex goes if no point of a constraint is there and no two segments cross there. One that
@@ -166,8 +171,9 @@ void Triangulation::examine(VertexId v) {
     return;
   gather_segments(v);
   const std::size_t known = taken_off_.size();
+  const bool is_needed = this->is_needed(v);
   for (const SegmentId s : around_)
-    if (!ends_at(s, v) && !is_rightly_on(s, v)) taken_off_.push_back(s);
+    if (!ends_at(s, v) && !(is_needed && is_rightly_on(s, v))) taken_off_.push_back(s);
   for (std::size_t i = known; i < taken_off_.size(); ++i) take_off_to_lay_again(taken_off_[i]);
   restore_delaunay();
 }
@@ -217,15 +223,21 @@ void Triangulation::gather_segments(VertexId v) {
   keep_each_once(around_);
 }
 
-/// Whether a segment through v has to go there: because of a point on it, or because it crosses
-/// another one of around_ there.
+/// Whether there has to be a vertex: because of a point, or because two of around_ cross there.
+bool Triangulation::is_needed(VertexId v) const {
+  if (uses_[v.index()] > 0) return true;
+  for (std::size_t i = 0; i < around_.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (crosses_at(around_[i], around_[j], point(v))) return true;
+  return false;
+}
+
+/// Whether a segment through v, where a vertex is needed, has to go there.
 bool Triangulation::is_rightly_on(SegmentId s, VertexId v) const {
   const Point place = point(v);
   const auto [a, b] = ends_of(s);
-  if (uses_[v.index()] > 0) {
-    if (orient(a, b, place) == 0) return true;
-    if (epsilon_ > 0 && distance_to_line(a, b, place) <= epsilon_) return true;
-  }
+  if (epsilon_ == 0) return rounds_to(a, b, place);
+  if (uses_[v.index()] > 0 && distance_to_line(a, b, place) <= epsilon_) return true;
   return std::ranges::any_of(
       around_, [&](SegmentId other) { return other != s && crosses_at(s, other, place); });
 }

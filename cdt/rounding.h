@@ -9,12 +9,25 @@
 
 namespace loft::cdt {
 
-// Where correctly rounded crossings may be on the wrong side of something. These tests only raise
-// doubt, generously and cheaply; they decide nothing.
+// How near is within rounding.
 
 /// Coordinates of crossings are off by half a unit in the last place: within so many of these,
-/// relative to the coordinates, order and side are for exact tests to decide.
+/// relative to the coordinates, are the places that an edit may have to do with.
 inline constexpr double doubtful_rounding = 16 * detail::rounding;
+
+/// What rounds to places further apart than so many of these, relative to the coordinates, is told
+/// apart by angles that are not thin.
+inline constexpr double crowded_rounding = 1024 * detail::rounding;
+inline constexpr double thin = 1.0 / 256;
+
+/// A segment may be led astray by rounding that often before it settles for existing edges.
+inline constexpr int most_detours = 32;
+
+/// How far the course of the segment ab may be from it.
+[[nodiscard]] inline double most_astray(Point a, Point b) {
+  return 8 * detail::rounding *
+         std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+}
 
 [[nodiscard]] inline double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
@@ -32,9 +45,9 @@ inline constexpr double doubtful_rounding = 16 * detail::rounding;
 }
 
 /// Whether two places are so near that rounding may have exchanged them along a line.
-[[nodiscard]] inline bool are_hardly_apart(Point p, Point q) {
+[[nodiscard]] inline bool are_hardly_apart(Point p, Point q, double slack = doubtful_rounding) {
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
-  return std::abs(p.x - q.x) + std::abs(p.y - q.y) <= doubtful_rounding * reach;
+  return std::abs(p.x - q.x) + std::abs(p.y - q.y) <= slack * reach;
 }
 
 /// Whether p is beside the segment ab, however far, and not before or behind it.
@@ -44,16 +57,46 @@ inline constexpr double doubtful_rounding = 16 * detail::rounding;
   return (p.x - a.x) * dx + (p.y - a.y) * dy > 0 && (p.x - b.x) * dx + (p.y - b.y) * dy < 0;
 }
 
+/// Whether p is neither within rounding of the line ab nor in a direction from a or b that is
+/// almost that of the line. `reach`: a bound for coordinates.
+[[nodiscard]] inline bool is_clearly_beside(Point a, Point b, Point p, double reach) {
+  const double area = std::abs((a.x - p.x) * (b.y - p.y) - (a.y - p.y) * (b.x - p.x));
+  const double length = std::abs(b.x - a.x) + std::abs(b.y - a.y);
+  const double longer = std::max(std::abs(p.x - a.x) + std::abs(p.y - a.y),
+                                 std::abs(p.x - b.x) + std::abs(p.y - b.y));
+  return area > length * std::max(thin * longer, crowded_rounding * reach);
+}
+
+/// Whether p is left of the line through a and b, and not within rounding of it.
+[[nodiscard]] inline bool is_clearly_left(Point a, Point b, Point p) {
+  const double left = (a.x - p.x) * (b.y - p.y);
+  const double right = (a.y - p.y) * (b.x - p.x);
+  const double reach = std::max(std::abs(p.x), std::abs(p.y));
+  return left - right > detail::orient_bound * (std::abs(left) + std::abs(right)) +
+                            doubtful_rounding * reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y));
+}
+
 /// Whether p is beside the segment ab, between its ends, and so near that rounding a and b may have
 /// put it on the wrong side.
 [[nodiscard]] inline bool is_hardly_beside(Point a, Point b, Point p, double slack = 1) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
-  const double area = dx * (p.y - a.y) - dy * (p.x - a.x);
+  const double left = dx * (p.y - a.y);
+  const double right = dy * (p.x - a.x);
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
-  if (std::abs(area) > slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy)))
-    return false;
-  return is_alongside(a, b, p);
+  const double bound = slack * doubtful_rounding * reach * (std::abs(dx) + std::abs(dy)) +
+                       detail::orient_bound * (std::abs(left) + std::abs(right));
+  return std::abs(left - right) <= bound && is_alongside(a, b, p);
+}
+
+/// Whether p is so near to the line ab, or to a or b, that others may be hardly beside it.
+[[nodiscard]] inline bool is_crowding(Point a, Point b, Point p) {
+  const double left = (a.x - p.x) * (b.y - p.y);
+  const double right = (a.y - p.y) * (b.x - p.x);
+  const double reach = std::max(std::abs(p.x), std::abs(p.y));
+  return std::abs(left - right) <=
+         2 * crowded_rounding * reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y)) +
+             detail::orient_bound * (std::abs(left) + std::abs(right));
 }
 
 /// Whether q comes after p on the way from a to b, where both are on that line but for correct

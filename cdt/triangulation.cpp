@@ -44,6 +44,8 @@ void Triangulation::clear() {
   vertex_count_ = 0;
   reserved_ = VertexId::none();
   is_flat_ = true;
+  has_bends_ = false;
+  has_crowds_ = false;
 }
 
 void Triangulation::reserve(std::size_t vertices) {
@@ -76,6 +78,7 @@ void Triangulation::begin_edit() {
 }
 
 void Triangulation::end_edit() {
+  if (!crowded_.empty() || !loose_.empty()) settle_loose();
   if (!snaps_.empty()) tidy_snaps();
   changes_.made.clear();
   changes_.unmade.clear();
@@ -123,6 +126,8 @@ std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
   check_usable({&point, 1});
   if (!can_split(e, point)) return {};
   begin_edit();
+  has_bends_ = true;
+  has_crowds_ = true;
   doubt_others_on(e, point);
   const VertexId v = split_at({Location::Kind::edge, e}, point);
   ++uses_[v.index()];
@@ -139,6 +144,7 @@ std::optional<VertexId> Triangulation::split(TriangleId t, Point point) {
     if (orient(this->point(from(e)), this->point(to(e)), point) <= 0) return {};
   }
   begin_edit();
+  has_crowds_ = true;
   const VertexId v = split_at({Location::Kind::triangle, edge(t)}, point);
   ++uses_[v.index()];
   end_edit();
@@ -175,6 +181,7 @@ void Triangulation::describe(ConstraintId id, std::span<const VertexId> vertices
 
 void Triangulation::lay_all(ConstraintId id) {
   const Constraint constraint = constraints_[id.index()];
+  if (!crowded_.empty()) lay_crowded();
   for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
     lay(SegmentId(constraint.first_segment + i));
   if (!loose_.empty()) settle_loose();

@@ -49,8 +49,8 @@ struct Polyline {
   Ends ends = open;
 };
 
-/// Where rounding decides: a segment that goes through a vertex which is not on it, or that misses
-/// one which is, because three lines (or two lines and a point) are within rounding of one place.
+/// Where rounding decides: a segment that goes through a vertex although none of its points rounds
+/// to that, because its way, being rounded, is on the wrong side of it.
 struct Snap {
   SegmentId segment;
   Point place;
@@ -67,11 +67,15 @@ struct Snap {
 ///
 /// Guarantees. All decisions are exact. Every triangle is counter-clockwise; every edge without
 /// passage is constrained Delaunay, ties broken by the coordinates alone (in_circle_perturbed).
-/// Crossing points are computed from the two segments as inserted and correctly rounded. So the
-/// triangulation is a function of the set of constraints, whatever the order in which they came,
-/// moved and went. Where rounding would turn a triangle over, a segment goes through a vertex
-/// nearby instead: then the result is as valid, but may depend on that order; snaps() lists these
-/// places. It never fails and never hangs.
+/// Crossing points are computed from the two segments as inserted and correctly rounded, and a
+/// segment leads through the vertices that one of its points rounds to (predicates.h, rounds_to):
+/// snap rounding. So the triangulation is a function of the set of constraints, whatever the order
+/// in which they came, moved and went, and every vertex on a segment's way is within half a unit in
+/// the last place of it. Where doubles are much closer to each other than where the segment was
+/// rounded, near 0, it may have to lead through others between it and its rounded way: snaps()
+/// lists these places, where the result may depend on the order. No vertex on the way is further
+/// from the segment than 2^-50 of its largest coordinate; check() tests that. It never fails and
+/// never hangs.
 ///
 /// Epsilon. With an epsilon above zero, a point no further than that from a vertex is that vertex,
 /// one no further than that from a segment is on it, and a segment passing a vertex no further than
@@ -244,6 +248,11 @@ class Triangulation {
   /// The constraints that have a point at a vertex or pass through it: sorted, each once.
   /// Cost: the degree; in a mesh with point constraints, their number.
   [[nodiscard]] std::vector<ConstraintId> constraints(VertexId v) const;
+  /// Whether insert(Point) or split() has put a vertex here. Cost: the points of the constraints
+  /// here.
+  [[nodiscard]] bool has_own_point(VertexId v) const {
+    return count_points_at(v) < uses_[v.index()];
+  }
   /// The vertex where a constraint starts.
   [[nodiscard]] VertexId first_vertex(ConstraintId c) const {
     return constraints_[c.index()].first_vertex;
@@ -396,13 +405,7 @@ class Triangulation {
   [[nodiscard]] VertexId merge(Location& place, Point point) const;
   [[nodiscard]] EdgeId hint_for(Point point) const;
   [[nodiscard]] VertexId split_at(Location place, Point point);
-  [[nodiscard]] bool has_constrained_edge(TriangleId t) const {
-    const OrientedEdge* e = &edges_[3 * t.index()];
-    return ((e[0].bits | e[1].bits | e[2].bits) & OrientedEdge::constrained) != 0;
-  }
-  [[nodiscard]] std::optional<EdgeId> bent_edge_at(TriangleId t, Point point);
   void doubt_others_on(EdgeId e, Point point);
-  void doubt_others_through(VertexId v);
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
   void start(VertexId a, VertexId b);
   void extend(EdgeId end_to_infinity, VertexId v);
@@ -423,18 +426,18 @@ class Triangulation {
 
   // constrain.cpp: segments
   void lay(SegmentId s);
+  [[nodiscard]] bool lay_straight(SegmentId s);
   [[nodiscard]] VertexId meet(EdgeId e, SegmentId s);
-  [[nodiscard]] bool connect(VertexId from, VertexId to, SegmentId s);
+  [[nodiscard]] std::optional<Point> common_crossing(EdgeId e, SegmentId s) const;
+  [[nodiscard]] bool misses_something_at(VertexId v, SegmentId s) const;
+  [[nodiscard]] bool crosses_elsewhere(SegmentId one, SegmentId other, Point place) const;
+  [[nodiscard]] EdgeId connect(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
   [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
                                      Obstacle& obstacle) const;
-  void doubt_crossings_at(VertexId v, SegmentId s);
-  [[nodiscard]] bool runs_along(SegmentId one, SegmentId other) const;
   [[nodiscard]] bool crosses_at(SegmentId one, SegmentId other, Point place) const;
-  void doubt_point_beside(VertexId v, SegmentId s);
-  void doubt_beside(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
-  void lay_crooked(SegmentId s, VertexId at, VertexId via = VertexId::none());
+  void lay_crooked(SegmentId s, VertexId at);
   [[nodiscard]] Point nearest_on(EdgeId e, SegmentId s) const;
   [[nodiscard]] VertexId cross(EdgeId e, SegmentId s);
   [[nodiscard]] std::optional<Point> crossing_point(EdgeId e, SegmentId s) const;
@@ -447,6 +450,26 @@ class Triangulation {
                                        const Obstacle& obstacle) const;
   void doubt(SegmentId s, Point place) { snaps_.push_back({s, place}); }
   [[nodiscard]] std::pair<Point, Point> ends_of(SegmentId s) const;
+
+  // course.cpp: the vertices that a segment leads through
+  [[nodiscard]] bool belongs_at_apex(EdgeId e, Passage passage);
+  bool lead_through_apex(EdgeId e);
+  bool settle_around(VertexId v);
+  void settle_crowd(VertexId v);
+  template <class IsNearVertex, class IsNearEdge, class Visit>
+  void visit_near(VertexId v, IsNearVertex is_near_vertex, IsNearEdge is_near_edge, Visit visit);
+  void lay_crowded();
+  void take_off_crowded();
+  bool settle_piece(EdgeId e, SegmentId s);
+  [[nodiscard]] bool hides_something(EdgeId e) const;
+  void settle_pieces();
+  void lay_through(SegmentId s, bool can_others_wait = true);
+  template <class Visit>
+  void trace(SegmentId s, Visit visit) const;
+  void make_crossings(SegmentId s);
+  void gather_stops(SegmentId s);
+  void lay_between(VertexId at, VertexId stop, SegmentId s);
+  [[nodiscard]] VertexId detour(EdgeId e, VertexId at, VertexId goal, SegmentId s);
 
   // cavity.cpp
   EdgeId force_edge(VertexId from, VertexId to);
@@ -477,6 +500,7 @@ class Triangulation {
   void settle_loose();
   void examine(VertexId v);
   [[nodiscard]] bool passes_straight(EdgeId before, EdgeId after) const;
+  [[nodiscard]] bool is_needed(VertexId v) const;
   [[nodiscard]] bool is_rightly_on(SegmentId s, VertexId v) const;
   void gather_segments(VertexId v);
   void lay_again();
@@ -535,10 +559,13 @@ class Triangulation {
   Locator locator_;
   EdgeId last_;
   std::size_t vertex_count_ = 0;
-  VertexId reserved_;      // the number of the next vertex, where that is not the first free one
-  VertexId only_;          // the only vertex, while there is just one
-  std::size_t flips_ = 0;  // since insert_points() began
-  bool is_flat_ = true;    // no finite triangle yet: all vertices in one line
+  VertexId reserved_;        // the number of the next vertex, where that is not the first free one
+  VertexId only_;            // the only vertex, while there is just one
+  std::size_t flips_ = 0;    // since insert_points() began
+  bool is_flat_ = true;      // no finite triangle yet: all vertices in one line
+  bool has_bends_ = false;   // segments may lead through points of others that are not on them
+  bool has_crowds_ = false;  // vertices may be hardly apart
+  bool is_surrounded_ = true;  // what fan_out() came by: constrained edges, vertices hardly apart
   bool is_recording_ = false;
   Changes changes_;
 
@@ -548,6 +575,12 @@ class Triangulation {
   std::vector<EdgeId> suspects_;
   std::vector<EdgeId> crossed_;
   std::vector<VertexId> goals_;
+  std::vector<VertexId> stops_;
+  std::vector<VertexId> crowd_;
+  std::vector<char> is_in_crowd_;
+  std::vector<SegmentId> crowded_;
+  std::vector<Point> crossings_;
+  std::vector<std::pair<VertexId, VertexId>> unsettled_;  // pieces, from one end to the other
   std::vector<TriangleId> spare_;
   std::vector<VertexId> loose_;
   std::vector<SegmentId> taken_off_;

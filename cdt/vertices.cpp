@@ -131,7 +131,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   if (place.kind == Location::Kind::vertex) {
     last_ = place.edge;
     const VertexId v = from(place.edge);
-    if (epsilon_ == 0 && uses_[v.index()] == 0) doubt_others_through(v);
+    has_bends_ |= uses_[v.index()] == 0;  // it was a crossing
     return v;
   }
   if (place.kind == Location::Kind::nowhere) {
@@ -147,14 +147,11 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   }
   if (epsilon_ > 0) {
     if (const VertexId v = merge(place, point); !v.is_none()) return v;
-  } else if (place.kind == Location::Kind::triangle) {
-    const TriangleId t = triangle(place.edge);
-    const auto bent = has_constrained_edge(t) ? bent_edge_at(t, point) : std::nullopt;
-    if (bent) place = {Location::Kind::edge, *bent};
   } else if (place.kind == Location::Kind::edge && is_constrained(place.edge)) {
     doubt_others_on(place.edge, point);
   }
   const VertexId v = split_at(place, point);
+  if (epsilon_ == 0 && is_surrounded_) settle_around(v);
   last_ = edge(v);
   locator_.add(v, point);
   return v;
@@ -202,48 +199,13 @@ VertexId Triangulation::split_at(Location place, Point point) {
   return v;
 }
 
-/// An edge of the triangle that ought to go through this point in it: one of a segment that the
-/// point is on, where crossings, being rounded, have bent it.
-std::optional<EdgeId> Triangulation::bent_edge_at(TriangleId t, Point p) {
-  for (unsigned corner = 0; corner < 3; ++corner) {
-    const EdgeId e = edge(t, corner);
-    if (!is_constrained(e)) continue;
-    if (!is_hardly_beside(point(from(e)), point(to(e)), p)) continue;
-    bool belongs_here = false;
-    for (const Passage passage : passages(e)) {
-      const Segment& s = segment(passage.segment());
-      const int side = orient(point(s.from), point(s.to), p);
-      if (side == 0 && is_between(point(s.from), point(s.to), p)) {
-        belongs_here = true;
-      } else if (side != (is_forward(e, passage) ? 1 : -1)) {
-        doubt(passage.segment(), p);
-      }
-    }
-    if (!belongs_here) continue;
-    if (can_split(e, p)) {
-      doubt_others_on(e, p);
-      return e;
-    }
-    for (const Passage passage : passages(e)) doubt(passage.segment(), p);
-  }
-  return {};
-}
-
 /// Notes the segments along an edge that are led through a point without being there.
 void Triangulation::doubt_others_on(EdgeId e, Point p) {
   for (const Passage passage : passages(e)) {
     const Segment& s = segment(passage.segment());
-    if (orient(point(s.from), point(s.to), p) != 0) doubt(passage.segment(), p);
-  }
-}
-
-/// Notes the segments that go through a crossing, which is now a point as well, without being
-/// there: what ends at that point may cross them hardly apart.
-void Triangulation::doubt_others_through(VertexId v) {
-  gather_segments(v);
-  for (const SegmentId s : around_) {
-    const auto [a, b] = ends_of(s);
-    if (orient(a, b, point(v)) != 0) doubt(s, point(v));
+    if (orient(point(s.from), point(s.to), p) == 0) continue;
+    has_bends_ = true;
+    if (!rounds_to(point(s.from), point(s.to), p)) doubt(passage.segment(), p);
   }
 }
 
@@ -361,9 +323,14 @@ inline bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, Verte
 void Triangulation::fan_out(VertexId v) {
   TriangleId t = triangle(edge(v));
   const VertexId first = from(edge(t, 0));
+  const Point place = point(v);
+  const bool has_segments = !segments_.empty();
+  is_surrounded_ = false;
   for (;;) {
     const EdgeId e = edge(t, 0);
-    if (!is_constrained(e)) {
+    if (is_constrained(e)) {
+      is_surrounded_ = true;
+    } else {
       const EdgeId f = twin(e);
       const VertexId d = apex(f);
       if (should_flip(from(e), from(f), v, d)) {
@@ -371,6 +338,8 @@ void Triangulation::fan_out(VertexId v) {
         continue;
       }
     }
+    is_surrounded_ |= has_segments ? is_crowding(point(from(e)), point(to(e)), place)
+                                   : are_hardly_apart(place, point(from(e)), crowded_rounding);
     t = triangle(twin(edge(t, 1)));
     if (from(edge(t, 0)) == first) break;
   }

@@ -25,6 +25,10 @@ std::vector<LabelledMesh> read_with(const std::filesystem::path& path) {
   return parse(read_file(path), path.string());
 }
 
+std::vector<LabelledMesh> read_gltf_file(const std::filesystem::path& path) {
+  return read_gltf(path);
+}
+
 struct Format {
   std::string_view extension;
   std::vector<LabelledMesh> (*read)(const std::filesystem::path&);
@@ -34,7 +38,7 @@ struct Format {
 constexpr std::array formats{
     Format{".ply", read_with<read_ply>, true}, Format{".obj", read_with<read_obj>, true},
     Format{".off", read_with<read_off>, true}, Format{".stl", read_with<read_stl>, false},
-    Format{".glb", read_gltf, false},          Format{".gltf", read_gltf, false},
+    Format{".glb", read_gltf_file, false},     Format{".gltf", read_gltf_file, false},
 };
 
 const Format* find_format(const std::filesystem::path& path) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/adjacency.h"
+#include "mesh/admitted.h"
 #include "mesh/box_tree.h"
 #include "mesh/nesting.h"
 #include "mesh/predicates.h"
@@ -26,6 +27,11 @@ bool names_all_vertices(const Mesh& mesh, std::uint32_t face) {
 
 bool is_finite(const Vec3& p) {
   return std::ranges::all_of(p, [](double x) { return std::isfinite(x); });
+}
+
+/// Whether exact tests can hold the place.
+bool is_admitted(const Vec3& p) {
+  return std::ranges::all_of(p, [](double x) { return admitted::mesh.admits(x); });
 }
 
 Corners corners(const Mesh& mesh, std::uint32_t face) {
@@ -53,6 +59,13 @@ void find_not_finite(const Mesh& mesh, Findings& findings) {
   }
 }
 
+void find_out_of_range(const Mesh& mesh, Findings& findings) {
+  for (std::uint32_t v = 0; v < mesh.points.size(); ++v) {
+    const Vec3& point = mesh.points[v];
+    if (is_finite(point) && !is_admitted(point)) findings.push_back({Fault::out_of_range, {}, {v}});
+  }
+}
+
 /// Reports the faces without area; returns those that have one.
 std::vector<std::uint32_t> find_degenerate_faces(const Mesh& mesh, Findings& findings) {
   std::vector<std::uint32_t> with_area;
@@ -60,7 +73,7 @@ std::vector<std::uint32_t> find_degenerate_faces(const Mesh& mesh, Findings& fin
   for (std::uint32_t face = 0; face < mesh.faces.size(); ++face) {
     if (!names_all_vertices(mesh, face)) continue;
     const auto [a, b, c] = corners(mesh, face);
-    if (!is_finite(a) || !is_finite(b) || !is_finite(c)) continue;
+    if (!is_admitted(a) || !is_admitted(b) || !is_admitted(c)) continue;
     if (collinear(a, b, c)) {
       findings.push_back({Fault::degenerate_face, {face}, {}});
     } else {
@@ -164,7 +177,7 @@ std::vector<std::uint32_t> shell_components(const Mesh& mesh, const Edges& edges
       is_shell[component[sides[0].face]] = false;
   }
   for (const std::uint32_t face : proper) {
-    if (!std::ranges::all_of(corners(mesh, face), is_finite)) is_shell[component[face]] = false;
+    if (!std::ranges::all_of(corners(mesh, face), is_admitted)) is_shell[component[face]] = false;
   }
   for (const auto& [f, g] : meeting) {
     if (component[f] != component[g]) is_shell[component[f]] = is_shell[component[g]] = false;
@@ -195,6 +208,8 @@ const char* name(Fault fault) {
       return "bad_index";
     case Fault::not_finite:
       return "not_finite";
+    case Fault::out_of_range:
+      return "out_of_range";
     case Fault::degenerate_face:
       return "degenerate_face";
     case Fault::boundary_edge:
@@ -217,6 +232,7 @@ std::vector<Finding> check(const Mesh& mesh) {
   Findings findings;
   find_bad_indices(mesh, findings);
   find_not_finite(mesh, findings);
+  find_out_of_range(mesh, findings);
   const std::vector<std::uint32_t> with_area = find_degenerate_faces(mesh, findings);
 
   const std::vector<std::uint32_t> proper = proper_faces(mesh);

@@ -14,6 +14,7 @@ namespace loft {
 enum class Fault {
   bad_index,           ///< a face names a vertex that is not there
   not_finite,          ///< a coordinate is NaN or infinite
+  out_of_range,        ///< a coordinate that exact tests cannot hold (mesh/admitted.h)
   degenerate_face,     ///< a face without area (exact)
   boundary_edge,       ///< an edge with one face: the surface is open
   nonmanifold_edge,    ///< an edge with more than two faces
@@ -37,8 +38,9 @@ struct Finding {
 /// degenerate face, no self-intersection. Decisions are exact. Vertices at the same place count as
 /// one for self-intersections (parts may touch where they share corners), not for topology.
 /// inside_out is asked only of components that are closed, oriented and meet no other one, with a
-/// volume beyond rounding. Faces without area are left out of self-intersections; those that name a
-/// vertex twice, of topology as well. Findings come in the order of Fault, then of the elements.
+/// volume beyond rounding. Faces without area, and those with a coordinate that is not finite or
+/// out of range, are left out of self-intersections; those that name a vertex twice, of topology as
+/// well. Findings come in the order of Fault, then of the elements.
 /// Cost: O(n log n) in practice.
 [[nodiscard]] std::vector<Finding> check(const Mesh& mesh);
 

@@ -76,7 +76,9 @@ void FaceSum::put_into(Measures& measures) const {
 }
 
 void AngleCount::add(const Corners& triangle) {
-  const double angle = std::asin(smallest_sine(triangle)) * 180 / std::numbers::pi;
+  const double sine = smallest_sine(triangle);
+  // NaN and what overflows are no angle; sines are above 1 by rounding alone.
+  const double angle = sine > 0 ? std::asin(std::min(sine, 1.0)) * 180 / std::numbers::pi : 0;
   smallest_ = std::min(smallest_, angle);
   worst_aspect_ = std::max(worst_aspect_, aspect(triangle));
   ++counts_[std::min(static_cast<std::size_t>(angle * bins_a_degree), counts_.size() - 1)];

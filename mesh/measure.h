@@ -11,7 +11,8 @@
 namespace loft {
 
 /// How well shaped the faces of a mesh are. Angles in degrees: each face counts by its smallest
-/// one, which is 60 at best. All 0 without faces.
+/// one, which is 60 at best; 0 where it is none (without area, or not a number). All 0 without
+/// faces.
 struct Angles {
   double smallest = 0;
   double fifth_percentile = 0;  ///< one face in 20 has a smaller one; to 0.01 degrees

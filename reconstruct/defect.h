@@ -13,7 +13,7 @@ namespace loft {
 
 /// What was found wrong with the input.
 enum class DefectKind {
-  not_finite,        ///< a coordinate or height is NaN, infinite, beyond 1e75 or below 1e-50; fatal
+  not_finite,        ///< a coordinate or height is not in its range (mesh/admitted.h); fatal
   slices_too_near,   ///< less than 2^-40 of their height apart: rounding leaves no room; fatal
   too_few_slices,    ///< fewer than two slices with something in them; fatal
   too_few_points,    ///< a contour of 0, 1 or 2 points, or of fewer than 3 different ones: dropped

@@ -367,6 +367,7 @@ OutOfCoreReport reconstruct_out_of_core(const SliceSource& source, const Options
                                         SurfaceSink& sink, const Progress& progress) {
   if (options.simplify || !options.links.empty())
     throw std::invalid_argument("simplify and links need the whole stack");
+  require_usable(options);
   return Work(source, options, sink).run(progress);
 }
 

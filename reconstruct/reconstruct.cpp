@@ -206,6 +206,7 @@ void check_enough(std::span<const Region> regions) {
 
 Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_options,
                           const Progress& progress) {
+  require_usable(all_options);
   if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
   OneLabel one_label(all_options.label);
   for (const Slice& slice : slices) one_label.add(slice);

@@ -45,7 +45,7 @@ class Cancelled : public Error {
 /// ends before it, whatever else is there. Of leading and trailing empty slices the nearest counts,
 /// the others are left out. What goes on to the first or the last slice of all is capped there.
 /// Throws InputError with all fatal defects: a coordinate that is not finite or of no usable size
-/// (cdt::Triangulation::is_usable), slices so near to one another that rounding leaves nothing
+/// (mesh/admitted.h), slices so near to one another that rounding leaves nothing
 /// between them, no slice with an area, or nothing but one such slice; link orders that no stack
 /// could meet (find_bad_orders()), contours of several labels without Options::label, edge lengths
 /// that ask for too many triangles (split_long_edges()). Cost: O(n log n) for n contour points, in

@@ -29,6 +29,7 @@ Reconstruction::Reconstruction(Options options)
   if (stack_->options.simplify || !stack_->options.links.empty() ||
       stack_->options.height_tolerance != 0)
     throw std::invalid_argument("simplify, links and height_tolerance need the whole stack");
+  require_usable(stack_->options);
 }
 Reconstruction::~Reconstruction() = default;
 Reconstruction::Reconstruction(Reconstruction&&) noexcept = default;

@@ -2,29 +2,58 @@
 #include "reconstruct/usable.h"
 
 #include <cmath>
+#include <utility>
 
-#include "cdt/triangulation.h"
+#include "reconstruct/number_text.h"
 
 namespace loft {
+
+namespace {
+
+/// A problem of an option that has to be a length, none where it is not given.
+void note_length(const char* option, std::optional<double> value, std::string& problems) {
+  if (!value || admitted::length.admits_length(*value)) return;
+  if (!problems.empty()) problems += '\n';
+  problems += std::string(option) + ": " + why_not_admitted(*value, admitted::length);
+}
+
+}  // namespace
+
+std::string why_not_admitted(double value, const Range& range) {
+  if (std::isnan(value)) return "NaN is not a number";
+  const auto with_sign = [&](double limit) { return exact(value < 0 ? -limit : limit); };
+  if (std::isinf(value)) return exact(value) + " is not finite";
+  if (std::abs(value) > range.largest)
+    return exact(value) + " is beyond " + with_sign(range.largest);
+  if (value != 0 && std::abs(value) < range.smallest)
+    return exact(value) + " is nearer to 0 than " + with_sign(range.smallest) + ", but not 0";
+  return exact(value) + " is below 0";
+}
 
 std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
                                   const std::optional<std::string>& label) {
   std::vector<Defect> found;
   const auto note = [&](std::optional<std::uint32_t> contour, std::optional<std::uint32_t> point,
-                        const char* message) {
-    found.push_back({DefectKind::not_finite, slice.z, index, contour, point, {}, 0, message});
+                        std::string message) {
+    found.push_back(
+        {DefectKind::not_finite, slice.z, index, contour, point, {}, 0, std::move(message)});
   };
-  if (!(std::abs(slice.z) <= cdt::Triangulation::largest_coordinate))
-    note({}, {}, "the height is not a finite number below 1e75; correct it or leave the slice out");
+  if (!admitted::slice.admits(slice.z))
+    note({}, {},
+         "the height " + why_not_admitted(slice.z, admitted::slice) +
+             "; correct it or leave the slice out");
   for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
     if (label && slice.contours[c].label != *label) continue;
     const auto& points = slice.contours[c].points;
-    for (std::uint32_t p = 0; p < points.size(); ++p)
-      if (!cdt::Triangulation::is_usable(points[p].x) ||
-          !cdt::Triangulation::is_usable(points[p].y))
+    for (std::uint32_t p = 0; p < points.size(); ++p) {
+      for (const double value : {points[p].x, points[p].y}) {
+        if (admitted::slice.admits(value)) continue;
         note(c, p,
-             "a coordinate is not finite, beyond 1e75, or below 1e-50 without being 0; "
-             "correct the point or leave it out");
+             "a coordinate: " + why_not_admitted(value, admitted::slice) +
+                 "; correct the point or leave it out");
+        break;
+      }
+    }
   }
   return found;
 }
@@ -40,6 +69,20 @@ void OneLabel::add(const std::string& label) {
     throw InputError("the stack has contours of several labels, '" + *label_ + "' and '" + label +
                      "'; choose one of labels() by Options::label, a surface each, or give all "
                      "contours the same label");
+}
+
+void require_usable(const Options& options) {
+  std::string problems;
+  note_length("keyhole_width", options.keyhole_width, problems);
+  note_length("max_edge", options.max_edge, problems);
+  note_length("target_edge", options.target_edge, problems);
+  note_length("simplify", options.simplify, problems);
+  note_length("max_shift", options.max_shift, problems);
+  for (const auto& [name, value] :
+       {std::pair("max_edge", options.max_edge), std::pair("target_edge", options.target_edge)})
+    if (value == 0.0)
+      problems += (problems.empty() ? "" : "\n") + std::string(name) + ": 0 is no length";
+  if (!problems.empty()) throw InputError(problems);
 }
 
 }  // namespace loft

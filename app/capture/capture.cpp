@@ -2,6 +2,7 @@
 #include "app/capture/capture.h"
 
 #include <algorithm>
+#include <exception>
 #include <iterator>
 #include <utility>
 
@@ -244,7 +245,7 @@ Capture::Applied Capture::apply(const Edit& edit) {
   view_.reset();
   try {
     applied.exchange = surfaces_.apply(edit, applied.change);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // whatever an edit throws, the capture goes on
     applied.answer = {Answer::Outcome::rejected, error.what()};
     return applied;
   }

@@ -14,7 +14,6 @@
 #include "app/options/manual.h"
 #include "app/options/tree.h"
 #include "app/unit.h"
-#include "cdt/triangulation.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
 #include "io/slices.h"
@@ -319,7 +318,7 @@ CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
   sub->add_option("--epsilon", command.epsilon,
                   "Points and polylines closer than that become one, default 0")
       ->type_name("DISTANCE")
-      ->check(CLI::Range(0.0, loft::cdt::Triangulation::largest_coordinate));
+      ->check(CLI::Validator(complain_of_epsilon, ""));
   sub->add_flag_callback(
       "--no-fill", [&command] { command.drawing.has_fill = false; },
       "Leave regions uncoloured (SVG)");

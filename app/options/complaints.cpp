@@ -2,9 +2,9 @@
 #include "app/options/complaints.h"
 
 #include <CLI/CLI.hpp>
-#include <cmath>
 
 #include "app/unit.h"
+#include "mesh/admitted.h"
 
 namespace loft::app {
 
@@ -15,8 +15,9 @@ std::string complain_of_unit(const std::string& unit) {
 
 std::string complain_of_length(const std::string& text) {
   double length = 0;
-  if (CLI::detail::lexical_cast(text, length) && std::isfinite(length) && length > 0) return {};
-  return "'" + text + "' is no length; give a number above 0, in the unit of the input";
+  if (CLI::detail::lexical_cast(text, length) && length > 0 && admitted::length.admits(length))
+    return {};
+  return "'" + text + "' is no length; give a number from 1e-30 to 1e70, in the unit of the input";
 }
 
 std::string complain_of_rate(const std::string& text) {
@@ -27,9 +28,17 @@ std::string complain_of_rate(const std::string& text) {
 
 std::string complain_of_distance(const std::string& text) {
   double distance = 0;
-  if (CLI::detail::lexical_cast(text, distance) && std::isfinite(distance) && distance >= 0)
+  if (CLI::detail::lexical_cast(text, distance) && admitted::length.admits_length(distance))
     return {};
-  return "'" + text + "' is no distance; give 0 or a number above, in the unit of the input";
+  return "'" + text +
+         "' is no distance; give 0 or a number from 1e-30 to 1e70, in the unit of the input";
+}
+
+std::string complain_of_epsilon(const std::string& text) {
+  double epsilon = 0;
+  if (CLI::detail::lexical_cast(text, epsilon) && admitted::planar.admits_length(epsilon))
+    return {};
+  return "'" + text + "' is no distance; give 0 or a number from 1e-50 to 1e75";
 }
 
 }  // namespace loft::app

@@ -9,6 +9,8 @@ namespace loft::app {
 [[nodiscard]] std::string complain_of_unit(const std::string& unit);
 [[nodiscard]] std::string complain_of_length(const std::string& text);
 [[nodiscard]] std::string complain_of_distance(const std::string& text);
+/// As a distance, for a triangulation.
+[[nodiscard]] std::string complain_of_epsilon(const std::string& text);
 /// Edits a second, within what glTF's seconds, which are floats, tell apart.
 [[nodiscard]] std::string complain_of_rate(const std::string& text);
 

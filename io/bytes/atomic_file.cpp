@@ -59,14 +59,26 @@ bool is_left_over(int file, const path& name) {
 }
 
 /// Makes the file and locks it, so that nobody takes it over. -1 if that cannot be, see errno.
-int make(const path& name) {
-  const int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+int make(const path& name, mode_t mode) {
+  const int file = ::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, mode);
   if (file < 0) return -1;
   // Where files cannot be locked nobody can take them over.
   if (::flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) return file;
   ::close(file);
   errno = EEXIST;
   return -1;
+}
+
+/// What fsync() says of files that it is not for, as on some network file systems.
+bool cannot_sync(int error) { return error == EINVAL || error == ENOTSUP || error == EROFS; }
+
+/// The new name is durable, too. The file itself is written by then: where a folder cannot be
+/// synced, no more can be done.
+void sync_folder(const path& folder) {
+  const int file = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (file < 0) return;
+  ::fsync(file);
+  ::close(file);
 }
 
 /// Takes over a file that no process holds any more. -1 if it is no such file.
@@ -90,10 +102,23 @@ AtomicFile::AtomicFile(path name) : path_(std::move(name)), target_(follow_links
     throw FileError(Access::write, path_, "it is a folder");
   }
   if (is_replaceable(target_)) {
+    forbid_replacing_protected();
     create_temporary();
   } else if (::access(target_.c_str(), W_OK) != 0) {
     throw FileError(Access::write, path_, last_cause());
   }
+}
+
+/// Renaming asks the folder alone: a file that may not be written to would be replaced.
+void AtomicFile::forbid_replacing_protected() {
+  struct stat there {};
+  if (::stat(target_.c_str(), &there) != 0) return;
+  constexpr mode_t all_write = S_IWUSR | S_IWGRP | S_IWOTH;
+  // Root may write to everything, also where nobody is meant to.
+  if (::access(target_.c_str(), W_OK) != 0 || (there.st_mode & all_write) == 0)
+    throw FileError(Access::write, path_,
+                    "it is read-only; make it writable, remove it, or write to another file");
+  mode_ = there.st_mode & 07777;
 }
 
 void AtomicFile::create_temporary() {
@@ -102,11 +127,18 @@ void AtomicFile::create_temporary() {
     std::string name(1, '.');
     name += target_.filename().string() + '.' + std::to_string(number) + ".part";
     temporary_ = folder_of(target_) / name;
-    lock_ = make(temporary_);
+    lock_ = make(temporary_, mode_.value_or(0666));
     if (lock_ < 0 && errno != EEXIST) break;
     if (lock_ < 0) lock_ = take_over(temporary_);
   }
   if (lock_ < 0) throw FileError(Access::write, path_, last_cause());
+  // At once, before anything is in it: what the mask left out, or what was taken over has.
+  if (mode_ && ::fchmod(lock_, *mode_) != 0) {
+    const std::string cause = last_cause();
+    ::unlink(temporary_.c_str());
+    ::close(std::exchange(lock_, -1));
+    throw FileError(Access::write, path_, cause);
+  }
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
 }
 
@@ -133,10 +165,18 @@ void AtomicFile::commit() {
   stream().flush();
   stream_.close();
   if (!stream_) throw FileError(Access::write, path_, errno != 0 ? last_cause() : "write failed");
-  std::error_code error;
-  if (lock_ >= 0) std::filesystem::rename(temporary_, target_, error);
-  if (error) throw FileError(Access::write, path_, error.message());
+  if (lock_ >= 0) put_in_place();
   committed_ = true;
+}
+
+/// Content first, then the name: whenever power is lost, the name means the old or the new file.
+void AtomicFile::put_in_place() {
+  if (::fsync(lock_) != 0 && !cannot_sync(errno))
+    throw FileError(Access::write, path_, last_cause());
+  if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+    throw FileError(Access::write, path_, last_cause());
+  committed_ = true;
+  sync_folder(folder_of(target_));
 }
 
 }  // namespace loft::io

@@ -60,6 +60,9 @@ class JsonReader {
   /// Checks that only blanks are left; else the message ends in `hint`.
   void end(const char* hint = "");
 
+  /// Where it is: the byte of the text that comes next.
+  [[nodiscard]] std::size_t place() const { return place_; }
+
   /// The number or word that was read or left out last, as it is written.
   [[nodiscard]] std::string_view last_word() const { return last_word_; }
 

@@ -5,6 +5,7 @@
 #include <ostream>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/meshes/labelled_mesh.h"
@@ -30,7 +31,13 @@ void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptio
 /// sew_seams()). From files that loft wrote come one mesh a node, in the unit of the stack; from
 /// others one mesh in metres, since there a node need not be a solid.
 /// Throws FileError, and InputError that names the file. Not read: sparse, compressed or quantised
-/// positions (an error says so), points and lines (left out).
+/// positions (an error says so), points and lines (left out). Bounded, as gltf_load.h says: what is
+/// nested, which files are opened (those of buffers, in the same folder), what repeated meshes make.
 [[nodiscard]] std::vector<LabelledMesh> read_gltf(const std::filesystem::path& path);
+
+/// The same from the file's content; files beside it are in `folder`.
+[[nodiscard]] std::vector<LabelledMesh> read_gltf(std::string_view content,
+                                                  const std::filesystem::path& folder,
+                                                  std::string_view name);
 
 }  // namespace loft::io

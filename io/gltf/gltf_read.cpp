@@ -12,6 +12,7 @@
 #include "io/bytes/little_endian.h"
 #include "io/gltf/affine.h"
 #include "io/gltf/gltf.h"
+#include "io/gltf/gltf_load.h"
 #include "io/meshes/polygons.h"
 #include "io/meshes/seam.h"
 #include "reconstruct/defect.h"
@@ -62,6 +63,7 @@ class Reader {
 
   std::vector<LabelledMesh> read() {
     read_extras();
+    for (const tinygltf::Buffer& buffer : model_.buffers) most_elements_ += buffer.data.size();
     for (const int root : roots()) visit(root, Affine(), 0);
     require_valid(polygons_.mesh, name_);
     std::vector<LabelledMesh> meshes = split(std::move(polygons_));
@@ -131,12 +133,23 @@ class Reader {
     const Elements positions = elements(found->second, TINYGLTF_TYPE_VEC3);
     if (positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) fail("POSITION is not float");
 
+    count_elements(primitive, positions.count);
     const std::vector<std::uint32_t> corners = read_indices(primitive, positions.count);
     const std::size_t first = polygons_.mesh.points.size();
     if (first + positions.count >= 0xffff'ffff) fail("more than 2^32 vertices");
     for (std::size_t i = 0; i < positions.count; ++i) add_point(positions, i, map);
     const bool is_mirrored = determinant(map) < 0;
     add_triangles(corners, mode, static_cast<std::uint32_t>(first), is_mirrored, label);
+  }
+
+  /// Before memory is taken for them: nodes and primitives may name the same numbers many times.
+  void count_elements(const tinygltf::Primitive& primitive, std::size_t vertex_count) {
+    elements_ += vertex_count + (primitive.indices < 0
+                                     ? vertex_count
+                                     : elements(primitive.indices, TINYGLTF_TYPE_SCALAR).count);
+    if (elements_ > most_elements_)
+      fail("its nodes repeat its meshes to more than " + std::to_string(most_elements_) +
+           " vertices and corners");
   }
 
   void add_point(const Elements& positions, std::size_t i, const Affine& map) {
@@ -243,41 +256,21 @@ class Reader {
   bool is_ours_ = false;
   double metres_per_unit_ = 1;
   std::size_t visits_ = 0;
+  std::size_t elements_ = 0;  // vertices and corners so far
+  /// Each number takes a byte at least; repeated ones may be some more.
+  std::size_t most_elements_ = std::size_t{1} << 24U;
 };
-
-/// Images show nothing of the shape: they are not decoded.
-bool ignore_image(tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*,
-                  int, void*) {
-  return true;
-}
-
-std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
 
+std::vector<LabelledMesh> read_gltf(std::string_view content, const std::filesystem::path& folder,
+                                    std::string_view name) {
+  const tinygltf::Model model = load_gltf(content, folder, name);
+  return Reader(model, std::string(name)).read();
+}
+
 std::vector<LabelledMesh> read_gltf(const std::filesystem::path& path) {
-  const std::string content = read_file(path);
-  const std::string name = path.string();
-  if (content.size() > std::numeric_limits<unsigned>::max()) {
-    throw InputError(name + ": larger than 4 GiB");
-  }
-  const auto size = static_cast<unsigned>(content.size());
-  tinygltf::TinyGLTF loader;
-  loader.SetImageLoader(ignore_image, nullptr);
-  tinygltf::Model model;
-  std::string error;
-  std::string warning;
-  const std::string folder = path.parent_path().string();
-  const bool is_loaded =
-      content.starts_with("glTF")
-          ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                        reinterpret_cast<const unsigned char*>(content.data()),
-                                        size, folder)
-          : loader.LoadASCIIFromString(&model, &error, &warning, content.data(), size, folder);
-  if (!is_loaded) {
-    throw InputError(name + ": not glTF: " + (error.empty() ? "cut off" : first_line(error)));
-  }
-  return Reader(model, name).read();
+  return read_gltf(read_file(path), path.parent_path(), path.string());
 }
 
 }  // namespace loft::io

@@ -3,6 +3,8 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 #include <sstream>
 #include <string_view>
@@ -33,10 +35,19 @@ std::uint64_t unsigned_number(const Statement& row, int column) {
 class Session::Journal {
  public:
   Journal(const std::filesystem::path& path, Access access)
-      : database_(path, access == Access::read ? loft::io::Access::read : loft::io::Access::write) {
+      : database_(path, access == Access::read ? loft::io::Access::read : loft::io::Access::write),
+        access_(access) {
     identify(access);
     if (access == Access::write) prepare_to_write();
   }
+
+  ~Journal() {
+    if (access_ == Access::read) return;
+    insert_.reset();
+    database_.close_to_one_file();
+  }
+  Journal(const Journal&) = delete;
+  Journal& operator=(const Journal&) = delete;
 
   void append(std::span<const Edit> edits, const std::optional<InputPosition>& input) {
     if (edits.empty() && !input) return;
@@ -56,6 +67,7 @@ class Session::Journal {
   }
 
   void for_each(const Take& take) const {
+    if (!database_.notes().empty()) database_.fail_damaged(database_.notes().front());
     const Statement rows =
         database_.prepare("select number, line, checksum from edits order by number");
     std::uint64_t expected = 0;
@@ -87,7 +99,9 @@ class Session::Journal {
         salvage.add_hole();
       }
     }
-    return salvage.finish(count.has_value());
+    std::vector<std::string> faults = database_.notes();
+    std::ranges::move(salvage.finish(count.has_value()), std::back_inserter(faults));
+    return faults;
   }
 
   [[nodiscard]] std::uint64_t count() const {
@@ -217,6 +231,7 @@ class Session::Journal {
   }
 
   SessionDatabase database_;
+  Access access_;
   Statement insert_;
   std::uint64_t count_ = 0;  // number of the next edit
   std::uint64_t sum_ = 0;    // checksum of the last one

@@ -32,9 +32,9 @@ class DamagedSession : public FileError {
 };
 
 /// The journal of a capture: every edit that was acknowledged, in order, in an SQLite file
-/// (write-ahead log, synchronous full). What append() has returned for survives the end of the
-/// process and the loss of power. One process at a time may write; any number may read, also where
-/// they may not write.
+/// (write-ahead log, synchronous full; one file once it is closed). What append() has returned for
+/// survives the end of the process and the loss of power. One process at a time may write; any
+/// number may read, also where they may not write.
 class Session {
  public:
   enum class Access { read, write };
@@ -56,6 +56,7 @@ class Session {
   /// journal is damaged, naming the edit: each one has a checksum.
   void for_each(const Take& take) const;
   /// As for_each(), but leaves out what is damaged. Returns that, a line each; none if all is well.
+  /// Where the header is damaged, a copy is read that has another; a log that is missing is named.
   [[nodiscard]] std::vector<std::string> salvage(const Take& take) const;
   [[nodiscard]] std::uint64_t edit_count() const;
   /// How far a file has been taken in; none if nothing came from it. Needs Access::write.

@@ -73,6 +73,7 @@ SessionDatabase::SessionDatabase(std::filesystem::path path, Access access)
     open_to_read();
   } else {
     lock();
+    look_at_header();
     open(file_.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   }
 }
@@ -102,7 +103,8 @@ void SessionDatabase::open(const std::string& name, int flags) {
 void SessionDatabase::open_to_read() {
   if (::access(file_.c_str(), R_OK) != 0) fail(SQLITE_ERROR, last_cause());
   if (std::filesystem::is_directory(file_)) fail(SQLITE_ERROR, "it is a folder");
-  open(file_.string(), SQLITE_OPEN_READONLY);
+  look_at_header();
+  open((copy_ ? copy_->file() : file_).string(), SQLITE_OPEN_READONLY);
   const int code =
       sqlite3_exec(database_.get(), "pragma schema_version", nullptr, nullptr, nullptr);
   // SQLite wants to make files beside it. Where it may not nobody writes; and where there is no log
@@ -113,6 +115,45 @@ void SessionDatabase::open_to_read() {
   }
   // Else a file that was cut off is refused as a whole.
   execute("pragma writable_schema = on");
+}
+
+/// Before SQLite opens it: closing the file would let go of SQLite's locks.
+void SessionDatabase::look_at_header() {
+  const SessionHeader header(file_);
+  if (!header.is_of_session()) return;
+  const bool is_damaged = header.is_damaged();
+  std::error_code ignored;
+  const bool is_log_missing = !is_damaged && header.needs_log() &&
+                              !std::filesystem::exists(file_.string() + "-wal", ignored);
+  if (is_damaged) {
+    notes_.emplace_back("its header is damaged; read from a copy with a header written anew");
+    if (access_ == Access::write)
+      fail_damaged("its header is damaged; 'loft session export --edits' saves what is in it");
+    copy_ = std::make_unique<MendedCopy>(file_, header);
+  }
+  if (is_log_missing) notes_.push_back(missing_log());
+  if (is_log_missing && access_ == Access::write) fail_damaged(notes_.back());
+}
+
+std::string SessionDatabase::missing_log() const {
+  return "its log, " + path_.filename().string() +
+         "-wal, is missing: the session was not closed, and its last edits are in that; put it "
+         "beside the session, or save the others by 'loft session export --edits'";
+}
+
+/// Nobody else may be in it; SQLite's way out of its log takes the file for itself.
+void SessionDatabase::close_to_one_file() noexcept {
+  try {
+    check_in_place();
+  } catch (const Error&) {
+    return;  // what has its name now is another's
+  }
+  sqlite3* const database = database_.get();
+  sqlite3_busy_timeout(database, 100);
+  constexpr const char* leave_log = "pragma journal_mode = delete";
+  if (sqlite3_exec(database, leave_log, nullptr, nullptr, nullptr) == SQLITE_OK) return;
+  // Somebody reads it: the log stays, as the file says that there is one.
+  sqlite3_db_config(database, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }
 
 /// The name of SQLite's write-ahead log.

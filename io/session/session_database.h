@@ -8,8 +8,10 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "io/bytes/file.h"
+#include "io/session/session_header.h"
 
 struct sqlite3;
 struct sqlite3_stmt;
@@ -55,6 +57,12 @@ class SessionDatabase {
   /// From now on check_in_place() looks for SQLite's log, too.
   void remember_log();
 
+  /// What is wrong with the file as a whole though it could be opened, a line each: a header that
+  /// was written anew in a copy, a log that is missing.
+  [[nodiscard]] const std::vector<std::string>& notes() const { return notes_; }
+  /// Puts everything into the one file, for who wrote and has ended well.
+  void close_to_one_file() noexcept;
+
   [[noreturn]] void fail(int code, const std::string& words) const;
   [[noreturn]] void fail_damaged(const std::string& words) const;
 
@@ -78,6 +86,8 @@ class SessionDatabase {
   [[nodiscard]] bool bears_our_mark() const;
   [[nodiscard]] const char* log() const;
   [[nodiscard]] bool has_log() const;
+  [[nodiscard]] std::string missing_log() const;
+  void look_at_header();
   void lock();
   void open(const std::string& name, int flags);
   void open_to_read();
@@ -87,7 +97,9 @@ class SessionDatabase {
   std::filesystem::path file_;  // from the root, whatever path_ is
   Access access_;
   Lock lock_;  // let go last: closing a file lets go of SQLite's locks on it
+  std::unique_ptr<MendedCopy> copy_;
   std::unique_ptr<sqlite3, Closer> database_;
+  std::vector<std::string> notes_;
   std::optional<FileId> log_id_;
 };
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cdt/check.h"
+#include "tests/cdt/courses.h"
 #include "tests/cdt/picture.h"
 #include "tests/cdt/player.h"
 
@@ -44,6 +45,7 @@ class Judge {
     const auto findings = check(player_.mesh());
     if (!findings.empty()) return "check: " + findings.front().message;
     if (std::string words = wrong_books(player_, outlines_); !words.empty()) return words;
+    if (std::string words = wrong_course(player_.mesh()); !words.empty()) return words;
     const Picture picture = picture_of(player_.mesh(), player_.ids());
     if (picture.vertices.size() != player_.mesh().vertex_count()) return "vertex_count() is wrong";
     if (std::string words = not_fresh(picture); !words.empty()) return words;
@@ -56,10 +58,14 @@ class Judge {
     std::vector<ConstraintId> ids;
     for (const auto& [points, ends] : outlines_) ids.push_back(fresh.insert(points, ends));
     is_snapped_ = !player_.mesh().snaps().empty() || !fresh.snaps().empty();
-    if (is_snapped_) return "";
     std::string words = difference(picture, picture_of(fresh, ids));
-    if (!words.empty()) return "not as a fresh one: " + words;
-    ++tally_.same_as_fresh;
+    if (words.empty()) {
+      ++tally_.same_as_fresh;
+    } else if (is_snapped_) {
+      ++tally_.not_as_fresh;
+    } else {
+      return "not as a fresh one: " + words;
+    }
     return "";
   }
 
@@ -73,14 +79,10 @@ class Judge {
       ++tally_.not_embeddable;
       return "";
     }
-    std::string words = difference(picture, reference.picture());
-    if (is_snapped_) {
-      ++tally_.only_snapped;
-      if (words.empty()) ++tally_.snapped_yet_same;
-    } else {
-      if (!words.empty()) return "not as the reference: " + words;
-      ++tally_.same_as_reference;
-    }
+    if (std::string words = difference(picture, reference.picture()); !words.empty())
+      return "not as the reference: " + words;
+    ++tally_.same_as_reference;
+    if (is_snapped_) ++tally_.snapped_in_vain;
     return "";
   }
 
@@ -118,17 +120,17 @@ Tally& Tally::operator+=(const Tally& other) {
   same_as_fresh += other.same_as_fresh;
   same_as_reference += other.same_as_reference;
   not_embeddable += other.not_embeddable;
-  only_snapped += other.only_snapped;
-  snapped_yet_same += other.snapped_yet_same;
+  not_as_fresh += other.not_as_fresh;
+  snapped_in_vain += other.snapped_in_vain;
   unexplained += other.unexplained;
   return *this;
 }
 
 std::ostream& operator<<(std::ostream& out, const Tally& tally) {
   return out << tally.edits << " edits; as a fresh triangulation " << tally.same_as_fresh
-             << ", as the reference " << tally.same_as_reference << "; excused: not embeddable "
-             << tally.not_embeddable << ", only for a snap " << tally.only_snapped << " ("
-             << tally.snapped_yet_same << " of them exact)"
+             << ", snapped and not so " << tally.not_as_fresh << ", as the reference "
+             << tally.same_as_reference << " (" << tally.snapped_in_vain
+             << " of them snapped); excused: not embeddable " << tally.not_embeddable
              << ", snapped and not explained " << tally.unexplained;
 }
 

@@ -21,18 +21,18 @@ struct Tally {
   std::size_t edits = 0;
   std::size_t same_as_fresh = 0;
   std::size_t same_as_reference = 0;
-  std::size_t not_embeddable = 0;    ///< rounding makes the exact answer impossible
-  std::size_t only_snapped = 0;      ///< it would have been possible, but a snap is reported
-  std::size_t snapped_yet_same = 0;  ///< of these: the answer is the exact one all the same
-  std::size_t unexplained = 0;       ///< snapped, and too large for the reference
+  std::size_t snapped_in_vain = 0;  ///< of these: a snap is reported all the same
+  std::size_t not_as_fresh = 0;     ///< but a snap is reported
+  std::size_t not_embeddable = 0;   ///< rounding makes the answer of the reference impossible
+  std::size_t unexplained = 0;      ///< snapped, and too large for the reference
 
   Tally& operator+=(const Tally& other);
   friend std::ostream& operator<<(std::ostream& out, const Tally& tally);
 };
 
 /// Plays a script on a triangulation. What is wrong first, in words; empty if nothing is:
-/// check() finds nothing; without snaps all is as in a triangulation that has never been edited,
-/// and as the reference says where that is possible.
+/// check() finds nothing, and courses follow their segments; without snaps all is as in a
+/// triangulation that has never been edited; where that is possible all is as the reference says.
 [[nodiscard]] std::string first_wrong(const Script& script, Judging judging, Tally& tally);
 
 /// The script with as few edits and points as possible that still has something wrong.

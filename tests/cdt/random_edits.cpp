@@ -64,12 +64,62 @@ class Author {
         return {number_below(2), number_below(1000) * 1e-9};
       case Ground::far_from_origin:
         return {5e6 + number_below(100) / 7, 4e7 + number_below(100) / 7};
+      case Ground::beside_lines:
+        return constraints_.empty() || below(2) == 0 ? Point{decimal(), decimal()} : beside();
+      case Ground::near_zero:
+        return near_zero();
+      case Ground::flush:
+        return below(4) == 0 ? Point{decimal(), decimal()} : along_corridor();
       case Ground::nearly_equal:
         break;
     }
     const auto coordinate = [&] { return number_below(3) + number_below(1000) * 1e-16; };
     const double x = coordinate();
     return {x, coordinate()};
+  }
+
+  /// Between -9.999 and 9.999, with one to three decimals.
+  [[nodiscard]] double decimal() {
+    const double tens[] = {10, 100, 1000};
+    const double unit = tens[below(3)];
+    return (number_below(static_cast<std::size_t>(20 * unit)) - 10 * unit) / unit;
+  }
+
+  /// On a side of an outline, but for a few last places.
+  [[nodiscard]] Point beside() {
+    const auto& points = constraints_.at(chosen()).points;
+    const std::size_t i = below(points.size());
+    const Point a = points[i];
+    const Point b = points[(i + 1) % points.size()];
+    const double shares[] = {0.5, 0.25, 0.1, 0.3, 0.001, number_below(1000) / 1000, 1.0 / 3};
+    const double share = shares[below(std::size(shares))];
+    return {nudged(a.x + share * (b.x - a.x)), nudged(a.y + share * (b.y - a.y))};
+  }
+
+  [[nodiscard]] double nudged(double x) {
+    if (x == 0) return x;  // steps there underflow
+    const double to = below(2) == 0 ? -1e300 : 1e300;
+    for (std::size_t steps = below(9); steps > 0; --steps) x = std::nextafter(x, to);
+    return x;
+  }
+
+  /// On one of a few lines across 0, far away or very near, or beside them.
+  [[nodiscard]] Point near_zero() {
+    const Point ways[] = {{0.6, 1.8}, {-1.7, 0.6}, {1, 0}, {0, 0.7}};
+    const Point way = ways[below(std::size(ways))];
+    const double sizes[] = {1e-15, 1, 100.0 / 3};
+    const double far = sizes[below(std::size(sizes))] * (number_below(9) - 4);
+    return {nudged(far * way.x + 1e-15 * number_below(3)), nudged(far * way.y)};
+  }
+
+  /// One of a few places on one of a few parallel lines, by arithmetic that rounds.
+  [[nodiscard]] Point along_corridor() {
+    const Point ways[] = {{0.6, 1.8}, {-1.7, 0.6}, {0.3, 0.1}};
+    const Point along = ways[below(2)];
+    const Point across = ways[2];
+    const double far = number_below(40) / 8;
+    const double beside = number_below(3);
+    return {-1.2 + far * along.x + beside * across.x, 2.4 + far * along.y + beside * across.y};
   }
 
   /// How far a translation goes.
@@ -162,8 +212,9 @@ class Author {
 }  // namespace
 
 const char* name_of(Ground ground) {
-  constexpr const char* names[] = {"8x8 grid",      "4x4 grid",        "decimals",
-                                   "near-parallel", "far from origin", "nearly equal"};
+  constexpr const char* names[] = {"8x8 grid",     "4x4 grid",        "decimals",
+                                   "near-parallel", "far from origin", "nearly equal",
+                                   "beside lines",  "near zero",       "flush"};
   return names[static_cast<std::size_t>(ground)];
 }
 

@@ -16,10 +16,14 @@ enum class Ground {
   near_parallel,    ///< ends at x = 0 and 1, y within 1e-6
   far_from_origin,  ///< sevenths beyond 5e6
   nearly_equal,     ///< around few places, 1e-13 apart and less
+  beside_lines,     ///< one to three decimals, half of them within 8 last places of others' lines
+  near_zero,        ///< lines across 0, and points 1e-15 from there
+  flush,            ///< along a few slanted lines in decimals, as rooms along a corridor
 };
-inline constexpr Ground all_grounds[] = {Ground::grid_8,          Ground::grid_4,
-                                         Ground::decimals,        Ground::near_parallel,
-                                         Ground::far_from_origin, Ground::nearly_equal};
+inline constexpr Ground all_grounds[] = {
+    Ground::grid_8,        Ground::grid_4,          Ground::decimals,
+    Ground::near_parallel, Ground::far_from_origin, Ground::nearly_equal,
+    Ground::beside_lines,  Ground::near_zero,       Ground::flush};
 
 [[nodiscard]] constexpr bool is_grid(Ground ground) {
   return ground == Ground::grid_8 || ground == Ground::grid_4;

@@ -2,6 +2,7 @@
 #include "tests/cdt/reference.h"
 
 #include <algorithm>
+#include <bit>
 #include <boost/multiprecision/cpp_int.hpp>
 #include <cmath>
 #include <limits>
@@ -15,13 +16,14 @@ namespace {
 
 using Integer = boost::multiprecision::cpp_int;
 
-/// Coordinates as integers, in units of a power of two that divides them all.
+/// Coordinates as integers, in units of a power of two that divides them all, and what is half way
+/// between them and their neighbours.
 class Scale {
  public:
   explicit Scale(std::span<const Point> points) {
     for (const Point p : points)
       for (const double x : {p.x, p.y})
-        if (x != 0) unit_ = std::min(unit_, std::ilogb(x) - digits);
+        if (x != 0) unit_ = std::min(unit_, std::ilogb(x) - digits - 1);
   }
 
   [[nodiscard]] Integer exact(double x) const {
@@ -32,26 +34,13 @@ class Scale {
   }
 
  private:
-  static constexpr int digits = std::numeric_limits<double>::digits - 1;
+  static constexpr int digits = std::numeric_limits<double>::digits + 2;
   int unit_ = std::numeric_limits<int>::max();
 };
 
 struct ExactPoint {
   Integer x;
   Integer y;
-};
-
-Integer area(const ExactPoint& a, const ExactPoint& b, const ExactPoint& c) {
-  return (a.x - c.x) * (b.y - c.y) - (a.y - c.y) * (b.x - c.x);
-}
-
-/// A place on a segment: how far along it, exactly, as a fraction with a positive denominator.
-struct Stop {
-  Integer along;
-  Integer of;
-  Point place;
-
-  friend bool operator<(const Stop& a, const Stop& b) { return a.along * b.of < b.along * a.of; }
 };
 
 bool is_strictly_between(Point a, Point b, Point p) {
@@ -61,6 +50,14 @@ bool is_strictly_between(Point a, Point b, Point p) {
 bool may_meet(Point a, Point b, Point c, Point d) {
   return std::max(a.x, b.x) >= std::min(c.x, d.x) && std::max(c.x, d.x) >= std::min(a.x, b.x) &&
          std::max(a.y, b.y) >= std::min(c.y, d.y) && std::max(c.y, d.y) >= std::min(a.y, b.y);
+}
+
+/// The way from a to b: p before q.
+bool is_in_order(Point p, Point q, Point a, Point b) {
+  const auto keeps = [](double from, double to, double start, double end) {
+    return start <= end ? from <= to : from >= to;
+  };
+  return p != q && keeps(p.x, q.x, a.x, b.x) && keeps(p.y, q.y, a.y, b.y);
 }
 
 template <class Visit>
@@ -76,60 +73,92 @@ void make_set(std::vector<Point>& points) {
   points.erase(std::unique(points.begin(), points.end()), points.end());
 }
 
-/// Finds the places on one segment.
+/// Whether points of a segment round to vertices, by rational arithmetic.
 class Tracer {
  public:
-  explicit Tracer(std::span<const Point> inputs) : inputs_(inputs), scale_(inputs) {}
+  explicit Tracer(std::span<const Point> vertices) : vertices_(vertices), scale_(vertices) {}
 
-  void add(const std::pair<Point, Point>& segment) {
-    segments_.push_back(
-        {segment.first, segment.second, exact(segment.first), exact(segment.second)});
-  }
-
-  [[nodiscard]] std::vector<Point> chain(std::size_t chosen) const {
-    const ExactSegment& s = segments_[chosen];
-    std::vector<Stop> stops{{0, 1, s.low}, {1, 1, s.high}};
-    for (const Point p : inputs_)
-      if (is_strictly_between(s.low, s.high, p)) stops.push_back(stop_at(s, p));
-    for (const ExactSegment& t : segments_)
-      if (may_meet(s.low, s.high, t.low, t.high) && crosses(s.low, s.high, t.low, t.high))
-        stops.push_back(crossing(s, t));
-    std::ranges::sort(stops, [](const Stop& a, const Stop& b) { return a < b; });
+  /// From the smaller end to the larger.
+  [[nodiscard]] std::vector<Point> chain(Point low, Point high) const {
     std::vector<Point> chain;
-    for (const Stop& stop : stops)
-      if (chain.empty() || chain.back() != stop.place) chain.push_back(stop.place);
+    for (const Point p : vertices_)
+      if (p == low || p == high || rounds_to(low, high, p)) chain.push_back(p);
+    std::ranges::sort(chain, [&](Point p, Point q) { return is_in_order(p, q, low, high); });
     return chain;
   }
 
  private:
-  struct ExactSegment {
-    Point low;
-    Point high;
-    ExactPoint exact_low;
-    ExactPoint exact_high;
+  /// What rounds to a coordinate: from half way to its neighbour below to half way to the one
+  /// above, in units of a half; the ends are included if it is even.
+  struct Cell {
+    Integer low;
+    Integer high;
+    bool has_ends;
+  };
+  /// Part of the way along a segment, as fractions of one denominator.
+  struct Stretch {
+    Integer from;
+    Integer to;
+    bool has_from = true;
+    bool has_to = true;
   };
 
-  [[nodiscard]] ExactPoint exact(Point p) const { return {scale_.exact(p.x), scale_.exact(p.y)}; }
-
-  [[nodiscard]] Stop stop_at(const ExactSegment& s, Point p) const {
-    const ExactPoint at = exact(p);
-    if (s.low.x != s.high.x) return {at.x - s.exact_low.x, s.exact_high.x - s.exact_low.x, p};
-    return {at.y - s.exact_low.y, s.exact_high.y - s.exact_low.y, p};
+  [[nodiscard]] Cell cell(double x) const {
+    if (x == 0) return {0, 0, true};
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    const Integer here = scale_.exact(x);
+    return {here + scale_.exact(std::nextafter(x, -infinity)),
+            here + scale_.exact(std::nextafter(x, infinity)),
+            (std::bit_cast<std::uint64_t>(x) & 1) == 0};
   }
 
-  [[nodiscard]] static Stop crossing(const ExactSegment& s, const ExactSegment& t) {
-    Integer to_low = area(t.exact_low, t.exact_high, s.exact_low);
-    Integer whole = to_low - area(t.exact_low, t.exact_high, s.exact_high);
-    if (whole < 0) {
-      to_low = -to_low;
-      whole = -whole;
+  /// Where the way from a to b, both in halves, is in a cell; in units of 1 / scale.
+  [[nodiscard]] static std::optional<Stretch> clip(const Integer& a, const Integer& b,
+                                                   const Cell& cell, const Integer& scale) {
+    if (a == b) {
+      const bool is_inside =
+          cell.has_ends ? cell.low <= a && a <= cell.high : cell.low < a && a < cell.high;
+      if (!is_inside) return {};
+      return Stretch{0, scale, true, true};
     }
-    return {to_low, whole, intersection(s.low, s.high, t.low, t.high)};
+    const Integer other = scale / (b > a ? Integer(b - a) : Integer(a - b));
+    Stretch stretch = b > a ? Stretch{(cell.low - a) * other, (cell.high - a) * other}
+                            : Stretch{(a - cell.high) * other, (a - cell.low) * other};
+    stretch.has_from = stretch.has_to = cell.has_ends;
+    return stretch;
   }
 
-  std::span<const Point> inputs_;
+  [[nodiscard]] bool rounds_to(Point a, Point b, Point p) const {
+    if (!may_meet(a, b, p, p)) return false;
+    const double reach = std::abs(p.x) + std::abs(p.y);
+    const double way = std::abs(b.x - a.x) + std::abs(b.y - a.y);
+    const double near = (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+    const double far = std::abs(a.x) + std::abs(a.y) + reach;
+    if (std::abs(near) > 1e-14 * far * way) return false;  // what is left is decided exactly
+    const Integer ax = 2 * scale_.exact(a.x), ay = 2 * scale_.exact(a.y);
+    const Integer bx = 2 * scale_.exact(b.x), by = 2 * scale_.exact(b.y);
+    const Integer wide = ax == bx ? Integer(1) : Integer(abs(bx - ax));
+    const Integer tall = ay == by ? Integer(1) : Integer(abs(by - ay));
+    const Integer scale = wide * tall;
+    const auto x = clip(ax, bx, cell(p.x), scale);
+    const auto y = clip(ay, by, cell(p.y), scale);
+    if (!x || !y) return false;
+    Stretch both{0, scale, true, true};
+    for (const Stretch& stretch : {*x, *y}) {
+      if (stretch.from > both.from || (stretch.from == both.from && !stretch.has_from)) {
+        both.from = stretch.from;
+        both.has_from = stretch.has_from;
+      }
+      if (stretch.to < both.to || (stretch.to == both.to && !stretch.has_to)) {
+        both.to = stretch.to;
+        both.has_to = stretch.has_to;
+      }
+    }
+    return both.from < both.to || (both.from == both.to && both.has_from && both.has_to);
+  }
+
+  std::span<const Point> vertices_;
   Scale scale_;
-  std::vector<ExactSegment> segments_;
 };
 
 /// Wraps triangles around everything, one after the other: from an edge to the corner whose circle
@@ -231,15 +260,18 @@ void Reference::trace_chains(std::span<const Outline> constraints) {
     for_each_segment(outline, [&](std::size_t, Point a, Point b) {
       if (a != b) chains_[std::minmax(a, b)];
     });
-  Tracer tracer(inputs_);
-  for (const auto& [segment, chain] : chains_) tracer.add(segment);
   vertices_ = inputs_;
-  std::size_t i = 0;
-  for (auto& [segment, chain] : chains_) {
-    chain = tracer.chain(i++);
-    vertices_.insert(vertices_.end(), chain.begin(), chain.end());
+  for (auto one = chains_.begin(); one != chains_.end(); ++one) {
+    const auto& [a, b] = one->first;
+    for (auto other = chains_.begin(); other != one; ++other) {
+      const auto& [c, d] = other->first;
+      if (may_meet(a, b, c, d) && crosses(a, b, c, d))
+        vertices_.push_back(intersection(a, b, c, d));
+    }
   }
   make_set(vertices_);
+  const Tracer tracer(vertices_);
+  for (auto& [ends, chain] : chains_) chain = tracer.chain(ends.first, ends.second);
 }
 
 void Reference::lead_runs(std::span<const Outline> constraints) {
@@ -264,7 +296,23 @@ bool Reference::is_embeddable() const {
       if (may_meet(a, b, c, d) && crosses(a, b, c, d)) return false;
     }
   }
-  return true;
+  return std::ranges::none_of(chains_, [&](const auto& entry) { return leaves_aside(entry); });
+}
+
+/// Whether a vertex is between a segment and its chain.
+bool Reference::leaves_aside(const std::pair<const Straight, std::vector<Point>>& entry) const {
+  const auto& [ends, chain] = entry;
+  const auto [a, b] = ends;
+  for (std::size_t i = 1; chain.size() > 2 && i < chain.size(); ++i) {
+    const Point p = chain[i - 1];
+    const Point q = chain[i];
+    const auto is_aside = [&, a = a, b = b](Point v) {
+      return is_in_order(p, v, a, b) && is_in_order(v, q, a, b) &&
+             orient(a, b, v) != orient(p, q, v);
+    };
+    if (std::ranges::any_of(vertices_, is_aside)) return true;
+  }
+  return false;
 }
 
 Picture Reference::picture() const {

@@ -67,14 +67,11 @@ TEST(Reference, LeadsASegmentThroughEveryPointExactlyOnIt) {
   EXPECT_TRUE(is_led_through);
 }
 
-TEST(Reference, SeesWhereRoundingLeavesNoAnswer) {
-  const Outline wedge{
-      {{2.000000000000024, 2.9799999999999997e-14}, {2.000000000000071, 1.0000000000000688}}, open};
-  const Outline needle{
-      {{2.000000000000022, 1.2899999999999999e-14}, {2.000000000000071, 1.0000000000000393}}, open};
-  EXPECT_TRUE(Reference(std::vector{wedge}).is_embeddable());
-  EXPECT_TRUE(Reference(std::vector{needle}).is_embeddable());
-  EXPECT_FALSE(Reference(std::vector{wedge, needle}).is_embeddable());
+TEST(Reference, LeadsThroughWhatAPointOfASegmentRoundsTo) {
+  // (0.3, 0.1) is no double, and hardly beside the line through 0 and (0.9, 0.3).
+  const Picture picture = picture_of({{{{0, 0}, {0.9, 0.3}}, open}, {{{0.3, 0.1}}, open}});
+  EXPECT_NE(orient({0, 0}, {0.9, 0.3}, {0.3, 0.1}), 0);
+  EXPECT_EQ(picture.lines.size(), 2U);
 }
 
 TEST(Reference, CoversTheHullWithCounterClockwiseTriangles) {

@@ -125,8 +125,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t siz
   if (script.empty()) return 0;
   Tally tally;
   std::string words = verdict(script, {4, 24}, tally);
-  if (words.empty() && decoder.is_on_grid() && tally.only_snapped > 0)
-    words = "snapped although the exact answer exists\n" + as_text(script);
+  if (words.empty() && decoder.is_on_grid() && tally.snapped_in_vain > 0)
+    words = "snapped although there is an exact answer\n" + as_text(script);
   if (words.empty()) return 0;
   std::fprintf(stderr, "%s\n", words.c_str());
   std::abort();

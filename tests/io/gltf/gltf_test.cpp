@@ -2,11 +2,14 @@
 #include "io/gltf/gltf.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 #include <tiny_gltf.h>
 
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <set>
 #include <sstream>
 #include <string>
@@ -261,6 +264,80 @@ TEST(Seam, KeepsApartWhatOnlyTouches) {
   }
   for (const auto& [a, b, c] : faces) mesh.faces.push_back({a + 4, b + 4, c + 4});
   EXPECT_EQ(sew_seams(soup(mesh)).points.size(), 8U);
+}
+
+/// One triangle, its numbers in `buffer`.
+std::string triangle(const std::string& buffer, const std::string& more = "") {
+  return R"({"asset":{"version":"2.0"},"nodes":[{"mesh":0}],"meshes":[{"primitives":[{"attributes":)"
+         R"({"POSITION":0}}]}],"buffers":[{"byteLength":36,)" +
+         buffer +
+         R"(}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+         R"("componentType":5126,"count":3,"type":"VEC3"}])" +
+         more + "}";
+}
+
+std::string refusal(const std::filesystem::path& path) {
+  try {
+    static_cast<void>(read_gltf(path));
+    return {};
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+TEST(Gltf, ReadsBuffersFromRegularFilesInItsFolderOnly) {
+  const Folder folder;
+  std::string numbers(36, '\0');
+  numbers[12 + 3] = 0x40;  // 2, 0, 0
+  numbers[24 + 7] = 0x40;  // 0, 2, 0
+  const auto inner = folder / "inner";
+  std::filesystem::create_directories(inner);
+  std::ofstream(folder / "out.bin") << numbers;
+  std::ofstream(inner / "a b.bin") << numbers;
+  ASSERT_EQ(::mkfifo((inner / "fifo").c_str(), 0600), 0);
+  std::filesystem::create_symlink(folder / "out.bin", inner / "link.bin");
+  const auto with_uri = [&](const std::string& uri) {
+    std::ofstream(inner / "a.gltf") << triangle(R"("uri":")" + uri + '"');
+    return refusal(inner / "a.gltf");
+  };
+  EXPECT_EQ(with_uri("a%20b.bin"), "");
+  for (const std::string uri : {"../out.bin", "%2e%2e/out.bin", "../inner/a%20b.bin", "fifo",
+                                "link.bin", "/dev/zero", "missing.bin", "."})
+    EXPECT_NE(with_uri(uri).find("is no file in its folder"), std::string::npos) << uri;
+  EXPECT_NE(with_uri((folder / "out.bin").string()), "");
+}
+
+TEST(Gltf, OpensNoImagesAndNoDeepBrackets) {
+  const Folder folder;
+  const std::string data = R"("uri":"data:application/octet-stream;base64,)" +
+                           std::string("AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAAEAAAAAA") + '"';
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);  // it would wait for ever
+  EXPECT_EQ(refusal(folder.write("a.gltf", triangle(data, R"(,"images":[{"uri":"fifo"}])"))), "");
+  const std::string deep = std::string(101, '[') + std::string(101, ']');
+  EXPECT_NE(refusal(folder.write("a.gltf", triangle(data, ",\"extras\":" + deep)))
+                .find("nested more than 100 deep"),
+            std::string::npos);
+}
+
+TEST(Gltf, RefusesMeshesThatNodesRepeatWithoutEnd) {
+  const Folder folder;
+  std::string nodes;
+  std::string roots;
+  for (int i = 0; i < 3000; ++i) {
+    nodes += (i == 0 ? "" : ",") + std::string(R"({"mesh":0})");
+    roots += (i == 0 ? "" : ",") + std::to_string(i);
+  }
+  std::string primitives;
+  for (int i = 0; i < 1000; ++i)
+    primitives += (i == 0 ? "" : ",") + std::string(R"({"attributes":{"POSITION":0}})");
+  const std::string text =
+      R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots + R"(]}],"nodes":[)" +
+      nodes + R"(],"meshes":[{"primitives":[)" + primitives +
+      R"(]}],"buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)" +
+      "AAAAAAAAAAAAAAAAAAAAQAAAAAAAAAAAAAAAAAAAAEAAAAAA" +
+      R"("}],"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{"bufferView":0,)"
+      R"("componentType":5126,"count":3,"type":"VEC3"}]})";
+  EXPECT_NE(refusal(folder.write("a.gltf", text)).find("repeat its meshes"), std::string::npos);
 }
 
 }  // namespace

@@ -192,7 +192,7 @@ TEST(Meshes, NamesFileAndPlaceOfWhatIsWrong) {
       {"a.stl", "x", ": neither ASCII STL nor binary of the size it says; is it cut off?"},
       {"a.stl", "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n",
        ":4: the file ends where z should be"},
-      {"a.glb", "glTF", ": not glTF: Too short data size for glTF Binary."},
+      {"a.glb", "glTF", ": not glTF: cut off"},
   };
   const Folder folder;
   for (const auto& [name, text, message] : cases) {

@@ -130,6 +130,25 @@ TEST(AtomicFile, ReplacesWhatALinkLeadsTo) {
   }
 }
 
+TEST(AtomicFile, HandsOnPermissionsAndRefusesWhatIsReadOnly) {
+  const Folder folder;
+  const auto path = folder.write("a", "old");
+  using std::filesystem::perms;
+  std::filesystem::permissions(path, perms(0600));
+  {
+    AtomicFile file(path);
+    EXPECT_EQ(std::filesystem::status(file.temporary()).permissions(), perms(0600));
+    file.stream() << "new";
+    file.commit();
+  }
+  EXPECT_EQ(std::filesystem::status(path).permissions(), perms(0600));
+  EXPECT_EQ(read_file(path), "new");
+  std::filesystem::permissions(path, perms(0444));
+  EXPECT_THROW(AtomicFile{path}, FileError);
+  EXPECT_EQ(read_file(path), "new");
+  EXPECT_EQ(folder.size(), 1U);
+}
+
 TEST(AtomicFile, TakesOverWhatAKilledProcessLeft) {
   const Folder folder;
   const auto path = folder / "a.txt";

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Whatever the stack and its options, what is made of it is a valid solid, and the region of each
+// slice has the exact area of its contours.
+#include "tests/reconstruct/any_stack.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace loft {
+namespace {
+
+std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
+  const char* value = std::getenv(variable);
+  return value == nullptr ? otherwise : std::strtoull(value, nullptr, 10);
+}
+
+TEST(AnyStack, MakesASolidAndKeepsItsAreas) {
+  const std::uint64_t first = number_from("LOFT_SOAK_FIRST", 0);
+  const std::uint64_t wanted = number_from("LOFT_SOAK_STACKS", 300);
+  int failures = 0;
+  for (std::uint64_t seed = first; seed < first + wanted && failures < 8; ++seed) {
+    const stacks::AnyStack any = stacks::stack_from_seed(seed);
+    const std::string wrong = stacks::complaint(any);
+    if (wrong.empty()) continue;
+    ++failures;
+    ADD_FAILURE() << "seed " << seed << ": " << wrong << '\n' << stacks::as_words(any);
+  }
+}
+
+}  // namespace
+}  // namespace loft

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: MIT
+#include "tests/reconstruct/exact_area.h"
+
+#include <algorithm>
+#include <boost/multiprecision/cpp_int.hpp>
+#include <cmath>
+#include <vector>
+
+namespace loft::stacks {
+
+namespace {
+
+using Rational = boost::multiprecision::cpp_rational;
+using cdt::Point;
+
+/// A side that is not level, from its lower end up.
+struct Side {
+  Rational x;  // at the lower end
+  Rational low;
+  Rational high;
+  Rational slope;  // x for y
+  int turn;        // +1: the contour runs upwards here
+
+  [[nodiscard]] Rational at(const Rational& y) const { return x + slope * (y - low); }
+};
+
+std::vector<Side> sides_of(std::span<const Contour> contours) {
+  std::vector<Side> sides;
+  for (const Contour& contour : contours) {
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+      Point a = contour.points[i];
+      Point b = contour.points[(i + 1) % contour.points.size()];
+      if (a.y == b.y) continue;
+      const int turn = a.y < b.y ? 1 : -1;
+      if (turn < 0) std::swap(a, b);
+      const Rational slope = (Rational(b.x) - Rational(a.x)) / (Rational(b.y) - Rational(a.y));
+      sides.push_back({Rational(a.x), Rational(a.y), Rational(b.y), slope, turn});
+    }
+  }
+  return sides;
+}
+
+/// All heights between which no two sides cross.
+std::vector<Rational> levels(const std::vector<Side>& sides) {
+  std::vector<Rational> all;
+  for (const Side& side : sides) all.insert(all.end(), {side.low, side.high});
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Rational low = std::max(sides[i].low, sides[j].low);
+      const Rational high = std::min(sides[i].high, sides[j].high);
+      if (low >= high || sides[i].slope == sides[j].slope) continue;
+      const Rational y =
+          low + (sides[j].at(low) - sides[i].at(low)) / (sides[i].slope - sides[j].slope);
+      if (y > low && y < high) all.push_back(y);
+    }
+  }
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+/// Of what is inside between two levels.
+Rational strip(const std::vector<Side>& sides, const Rational& low, const Rational& high,
+               Fill fill) {
+  const Rational middle = (low + high) / 2;
+  std::vector<std::pair<Rational, int>> crossed;
+  for (const Side& side : sides)
+    if (side.low <= low && side.high >= high) crossed.emplace_back(side.at(middle), side.turn);
+  std::ranges::sort(crossed);
+  Rational width = 0;
+  int winding = 0;
+  int count = 0;
+  for (std::size_t i = 0; i + 1 < crossed.size(); ++i) {
+    winding += crossed[i].second;
+    ++count;
+    const bool is_inside = fill == Fill::nonzero ? winding != 0 : count % 2 == 1;
+    if (is_inside) width += crossed[i + 1].first - crossed[i].first;
+  }
+  return width * (high - low);
+}
+
+Rational area(std::span<const Contour> contours, Fill fill) {
+  const std::vector<Side> sides = sides_of(contours);
+  const std::vector<Rational> at = levels(sides);
+  Rational result = 0;
+  for (std::size_t i = 0; i + 1 < at.size(); ++i) result += strip(sides, at[i], at[i + 1], fill);
+  return result;
+}
+
+Rational area(const Region& region) {
+  Rational twice = 0;
+  for (std::size_t i = 0; i < region.loop_count(); ++i) {
+    const auto loop = region.loop(i);
+    for (std::size_t k = 0; k < loop.size(); ++k) {
+      const Point a = region.points[loop[k]];
+      const Point b = region.points[loop[(k + 1) % loop.size()]];
+      twice += Rational(a.x) * Rational(b.y) - Rational(a.y) * Rational(b.x);
+    }
+  }
+  return twice / 2;
+}
+
+double squared_extent(std::span<const Contour> contours) {
+  double extent = 0;
+  for (const Contour& contour : contours)
+    for (const Point& p : contour.points) extent = std::max({extent, std::abs(p.x), std::abs(p.y)});
+  return extent * extent;
+}
+
+}  // namespace
+
+double area_error(const Region& region, std::span<const Contour> contours, Fill fill) {
+  const Rational off = area(region) - area(contours, fill);
+  const double scale = squared_extent(contours);
+  return scale == 0 ? 0 : std::abs(static_cast<double>(off)) / scale;
+}
+
+}  // namespace loft::stacks
