@@ -75,7 +75,7 @@ struct Options {
   /// height. Needs the whole stack: not for Reconstruction.
   double height_tolerance = 0;
   Cap cap = Cap::flat;
-  /// Bends the surface between the slices as their neighbours suggest (reconstruct/smooth.h);
+  /// Bends the surface between the slices as their neighbours suggest (reconstruct/shape/smooth.h);
   /// otherwise it is straight from slice to slice.
   bool smooth = false;
   /// Only contours with this label. Not set: all contours, which must have one label then.

@@ -14,8 +14,8 @@ namespace loft::app {
 /// Serves a surface over HTTP: what viewers need, surfaces out, and edits in where there is a
 /// capture.
 ///
-///     POST /slices            one or many edits, a line each (io/edit.h): answered once they are
-///     in
+///     POST /slices            one or many edits, a line each (io/stacks/edit.h): answered once
+///     they are in
 ///                             the surface and, with a session, durable. 200 if all were taken;
 ///                             each line is by itself: where some are bad the others are taken all
 ///                             the same, and the answer says of each what became of it. 400 a line
@@ -25,7 +25,7 @@ namespace loft::app {
 ///                             kept
 ///     GET /surface.glb        the surface as it is; also .gltf .ply .stl .obj .off; of a file that
 ///                             is only shown, in its own format
-///     GET /slabs/{id}.glb     a slab (io/slab_glb.h); 404 when it is gone
+///     GET /slabs/{id}.glb     a slab (io/gltf/slab_glb.h); 404 when it is gone
 ///     GET /slices             all heights; ?z=1.25 the slice at that height, as a line
 ///     GET /events             server-sent events: `reset` with all that there is, then `change`
 ///                             for each edit; a reader that comes back with Last-Event-ID, or

@@ -25,7 +25,7 @@ class Shown {
   [[nodiscard]] virtual std::pair<std::string, std::uint64_t> reset_event() const = 0;
   [[nodiscard]] virtual Json status() const = 0;
 
-  /// A slab as GLB (io/slab_glb.h); none where it is gone, or never was.
+  /// A slab as GLB (io/gltf/slab_glb.h); none where it is gone, or never was.
   [[nodiscard]] virtual std::optional<std::string> slab(std::size_t part, std::uint32_t id) = 0;
   /// The file to download with that extension, `.ply`; none where there is no surface yet. Throws
   /// io::UnknownFormat.

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "io/palette.h"
+#include "io/planar/palette.h"
 #include "io/planar/planar_mesh.h"
 
 namespace loft::io {

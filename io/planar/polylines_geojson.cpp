@@ -8,10 +8,10 @@
 #include <string>
 #include <utility>
 
-#include "io/bytes/coordinate.h"
 #include "io/bytes/json_reader.h"
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
+#include "io/planar/coordinate.h"
 
 namespace loft::io {
 

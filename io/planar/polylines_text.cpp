@@ -7,10 +7,10 @@
 #include <string>
 #include <utility>
 
-#include "io/bytes/coordinate.h"
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/text_reader.h"
+#include "io/planar/coordinate.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::io {

@@ -20,7 +20,7 @@ struct ContourSource {
   std::uint32_t contour = 0;
 };
 
-/// Cleans a slice (design, section 3, step 0): contours with no area and copies of others are
+/// Cleans a slice: contours with no area and copies of others are
 /// dropped, keyholes cut; the rest go into a CDT, which is flooded by the fill rule; the edges
 /// between inside and outside make the loops. What was found is appended to `repairs`.
 /// Laws: a slice of which nothing is reported keeps its vertices and edges, one for one. The

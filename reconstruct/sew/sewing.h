@@ -35,8 +35,8 @@ struct Layer {
   std::uint32_t slice;  ///< what its inner vertices will say
 };
 
-/// Sews slabs and caps together, from the lowest upwards, and takes apart what only touches
-/// (design, section 3, step 8): at an edge with more than two faces each is joined to its neighbour
+/// Sews slabs and caps together, from the lowest upwards, and takes apart what only touches:
+/// at an edge with more than two faces each is joined to its neighbour
 /// across the solid, vertices are doubled until each has one fan of faces, and edges that still
 /// join the same two vertices get midpoints of their own.
 ///

@@ -8,10 +8,10 @@
 
 namespace loft {
 
-/// Bends the tiles of a slab towards the smooth surface through the slices around it (design,
-/// section 3, step 9). `lower` and `upper` are the regions that `tiles` lie between, `slices[1]`
-/// and `slices[2]` their shapes, `pieces` the tiles' pieces. Where parts that do not overlap were
-/// linked, the surface bends around their slanted axis.
+/// Bends the tiles of a slab towards the smooth surface through the slices around it. `lower` and
+/// `upper` are the regions that `tiles` lie between, `slices[1]` and `slices[2]` their shapes,
+/// `pieces` the tiles' pieces. Where parts that do not overlap were linked, the surface bends
+/// around their slanted axis.
 ///
 /// Contour vertices and edges stay as they are. Every other edge that is off the smooth surface is
 /// split at a point on it, thrice at most. The tiles stay what tile() promises, by exact test:

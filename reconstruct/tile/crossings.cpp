@@ -18,7 +18,7 @@ namespace loft {
 namespace {
 
 /// How far from a collapsed crossing the new tiles may be, in heights of the slab. Without a bound
-/// a stack with many handles lost a quarter of its accuracy (design, section 3, step 6).
+/// a stack with many handles lost a quarter of its accuracy.
 constexpr double most_drift = 0.3;
 
 /// Bounds of the effort for one crossing: nodes around it, and targets tried.

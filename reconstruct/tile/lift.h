@@ -21,7 +21,7 @@ struct InnerVertex {
 };
 
 /// The heights of a slab's overlay over its sheets: which vertex of the tiles is above or below
-/// each corner of a sheet triangle (design, section 3, steps 2 and 3).
+/// each corner of a sheet triangle.
 ///
 /// Nodes, the vertices of the tiles, are numbered: first the points of the lower region, then
 /// those of the upper one, then the inner vertices. After lifting no sheet triangle touches a slice

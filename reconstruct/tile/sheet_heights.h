@@ -11,7 +11,7 @@
 namespace loft {
 
 /// Where the surface is over the inside of a slab's sheets, by the distances to the contours that
-/// bound them (design, section 3, step 3). Looks at the slab's triangles as they are when asked
+/// bound them. Looks at the slab's triangles as they are when asked
 /// first; make a new one after splits. Distances are prepared only for the sheets asked about.
 class SheetHeights {
  public:

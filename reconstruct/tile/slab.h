@@ -23,7 +23,7 @@ enum class Level : std::uint8_t { lower, upper };
 }
 
 /// The space between two neighbouring slices, with its overlay: the loops of both as constraints
-/// of one CDT (design, section 3, step 1).
+/// of one CDT.
 class Slab {
  public:
   /// Keeps references to the regions. In the overlay the upper region is moved by `shift`: a shear

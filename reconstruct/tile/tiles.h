@@ -52,7 +52,7 @@ struct TileSet {
 void drop_unused_inner(std::vector<Tile>& tiles, std::vector<InnerVertex>& inner,
                        std::uint32_t contour_count);
 
-/// The surface between two neighbouring slices (design, section 3, steps 1 to 6): a pure function
+/// The surface between two neighbouring slices: a pure function
 /// of the two regions. It touches the slice planes in the contours alone, each contour edge is an
 /// edge of exactly one tile, unsplit; so slabs fit together whatever is on the other side.
 /// Cost: that of the CDT of both slices.
@@ -81,7 +81,7 @@ inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max(
 
 /// The same with the upper region moved by `shift` while vertices are chosen to link: a shear of
 /// the slab, taken back afterwards, so that contour vertices are where they were and others move by
-/// their height's share of the shift (design, section 3, step 10). None if no valid tiles are
+/// their height's share of the shift. None if no valid tiles are
 /// found, or if that would take tests of more than `most_pairs` pairs of tiles: these are a few for
 /// each tile, but their number grows with its square where an edge lies along thousands of others.
 [[nodiscard]] std::optional<TileSet> tile_moved(const Region& lower, const Region& upper,

@@ -19,8 +19,8 @@
 
 #include "io/bytes/file.h"
 #include "io/meshes.h"
-#include "io/palette.h"
 #include "io/planar/hues.h"
+#include "io/planar/palette.h"
 #include "io/planar/planar_json.h"
 #include "io/planar/planar_ply.h"
 #include "io/polylines.h"

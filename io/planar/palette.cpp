@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/palette.h"
+#include "io/planar/palette.h"
 
 #include <array>
 
