@@ -2,6 +2,7 @@
 #include "reconstruct/tile/lift.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -158,6 +159,7 @@ void Lift::lift_vertices() {
 }
 
 void Lift::add_inner(VertexId v, double z, VertexKind kind) {
+  assert(slab_.lower().z <= z && z <= slab_.upper().z);
   if (nodes_.size() <= v.index()) {
     nodes_.resize(v.index() + 1, Origin::none);
     heights_.resize(v.index() + 1, Height::between);

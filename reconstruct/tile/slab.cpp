@@ -2,6 +2,7 @@
 #include "reconstruct/tile/slab.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -24,7 +25,9 @@ Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift, cdt::Tria
 Vec3 Slab::place(cdt::VertexId v, double z) const {
   const double share = (z - lower_.z) / height();
   const cdt::Point p = overlay_.point(v);
-  return {p.x - share * shift_.x, p.y - share * shift_.y, z};
+  const Vec3 place{p.x - share * shift_.x, p.y - share * shift_.y, z};
+  assert(std::ranges::all_of(place, [](double x) { return std::isfinite(x); }));
+  return place;
 }
 
 bool Slab::is_exact() const {
