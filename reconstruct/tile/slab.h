@@ -32,6 +32,15 @@ class Slab {
   Slab(const Region& lower, const Region& upper, cdt::Point shift = {},
        cdt::Triangulation memory = {});
 
+  /// Whether contours come nearer to each other than `contact` without meeting exactly. By rounding
+  /// alone those do that had a side or a corner in common until the stack was turned.
+  [[nodiscard]] bool has_near_contact(double contact) const;
+  /// The slab with an overlay in which such vertices are one and such edges go through them, as if
+  /// they met exactly; the tiles have to be tested. None if that would make vertices of one slice
+  /// one.
+  [[nodiscard]] static std::optional<Slab> merged(const Region& lower, const Region& upper,
+                                                  cdt::Point shift, double contact);
+
   [[nodiscard]] const Region& lower() const { return lower_; }
   [[nodiscard]] const Region& upper() const { return upper_; }
   [[nodiscard]] const Region& region(Level level) const {
@@ -91,6 +100,7 @@ class Slab {
 
  private:
   void note_vertices(Level level);
+  [[nodiscard]] bool keeps_vertices(Level level) const;
   [[nodiscard]] bool is_lower(cdt::EdgeId e, double height) const;
 
   const Region& lower_;
