@@ -24,10 +24,10 @@ namespace {
 /// Bars that turn would take up to 2.6 of the former, and become four times as large. Where sheets
 /// are slivers, much narrower than the tiles are wide, little changes anyway: there unlike circles
 /// take up to 0.7, to have no vertices but their own.
-constexpr double most_gain = 0.5;
-constexpr double most_gain_of_slivers = 0.75;
+constexpr double most_gain = 0.51;
+constexpr double most_gain_of_slivers = 0.76;
 constexpr double sliver = 1.0 / 32;
-constexpr double most_drift = 1;
+constexpr double most_drift = 0.9;
 
 /// Of possible collapses the one with the best shapes is taken, but for the volume it should gain:
 /// with a sixth of the sheets' area, which the tiles leave out before, the slab's volume is the
@@ -36,6 +36,9 @@ constexpr double most_drift = 1;
 constexpr double fair_gain = 1.0 / 6;
 constexpr double weight_of_gain = 0.5;
 constexpr double looked_at_height = 0.5;
+
+/// Below that a triangle is degenerate but for rounding.
+constexpr double least_shape = 1e-20;
 
 /// Bounds of the effort for one crossing: nodes around it, and targets tried.
 constexpr std::size_t largest_link = 256;
@@ -103,7 +106,7 @@ class Collapse {
   /// where all else is the same, and turning a stack changes nothing.
   struct Waiting {
     float width;
-    double merit;
+    float merit;
     Vec3 place;
     std::uint32_t node;
 
@@ -240,8 +243,8 @@ class Collapse {
     waiting.reset();
     const std::vector<Target> targets = find_targets(p);
     if (targets.empty()) return;
-    const auto width = static_cast<float>(sheets_around(p).width);
-    waiting = {width, targets.front().merit, place(p), p};
+    const auto width = static_cast<float>(measured(p).sheets.width);
+    waiting = {width, static_cast<float>(targets.front().merit), place(p), p};
     queue_.insert(*waiting);
   }
 
@@ -256,6 +259,16 @@ class Collapse {
     return false;
   }
 
+  /// Among four nodes those that face each other make the same triangles; what kind these keep, and
+  /// with it how wide sheets seem to be, must not depend on how the stack is turned.
+  [[nodiscard]] std::tuple<float, bool, float, Vec3> rank(std::uint32_t p,
+                                                          const Target& target) const {
+    const std::uint32_t node = link_[target.at];
+    const Vec3 way = minus(place(node), place(p));
+    return {-static_cast<float>(target.merit), node >= lower_count_,
+            static_cast<float>(std::hypot(way[0], way[1])), place(node)};
+  }
+
   /// The contour vertices around p that it may be pulled into, best first, as far as the tiles at p
   /// tell.
   std::vector<Target> find_targets(std::uint32_t p) {
@@ -267,10 +280,7 @@ class Collapse {
       looks_left_ -= std::min(looks_left_, fan_.size());
       if (const auto merit = this->merit(p)) targets.push_back({*merit, i});
     }
-    std::ranges::sort(targets, [this](const Target& a, const Target& b) {
-      if (a.merit != b.merit) return a.merit > b.merit;
-      return place(link_[a.at]) < place(link_[b.at]);
-    });
+    std::ranges::sort(targets, {}, [&](const Target& target) { return rank(p, target); });
     if (targets.size() > most_targets) targets.resize(most_targets);
     return targets;
   }
@@ -283,8 +293,10 @@ class Collapse {
     const double gain = gained_area(place(p), corners_, height_);
     if (!(std::abs(gain) <= most)) return std::nullopt;
     if (sideways_drift(place(p), corners_) > most_drift * sheets.width) return std::nullopt;
+    const double shape = worst_shape(corners_, stretch);
+    if (!(shape > least_shape)) return std::nullopt;
     const double off = sheets.area > 0 ? std::abs(gain / sheets.area - fair_gain) : 0;
-    return worst_shape(corners_, stretch) * std::exp(-weight_of_gain * off);
+    return shape * std::exp(-weight_of_gain * off);
   }
 
   /// The link condition (Dey, Edelsbrunner, Guha, Nekhayev, 1999), and no new edge within a slice

@@ -264,8 +264,8 @@ double Lift::extent(const Steiner& steiner) const {
   const auto [a, b, c] = steiner.corners;
   const double side = distance(mesh_.point(a), mesh_.point(b));
   if (c.is_none()) return side;
-  return std::max({side, distance(mesh_.point(b), mesh_.point(c)),
-                   distance(mesh_.point(c), mesh_.point(a))});
+  return std::max(
+      {side, distance(mesh_.point(b), mesh_.point(c)), distance(mesh_.point(c), mesh_.point(a))});
 }
 
 /// Inserts Steiner vertices in the order of their ranks. Many are the same but for rounding, as

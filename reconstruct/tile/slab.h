@@ -52,6 +52,12 @@ class Slab {
   /// Where an overlay vertex is in space, once it is lifted to height z.
   [[nodiscard]] Vec3 place(cdt::VertexId v, double z) const;
 
+  /// Where a place in space is in the overlay.
+  [[nodiscard]] cdt::Point in_overlay(const Vec3& place) const {
+    const double share = (place[2] - lower_.z) / height();
+    return {place[0] + share * shift_.x, place[1] + share * shift_.y};
+  }
+
   /// Whether rounding has decided nothing: contours of the two slices cross in vertices of their
   /// own, and otherwise meet exactly where they pass through each other's vertices.
   [[nodiscard]] bool is_exact() const;

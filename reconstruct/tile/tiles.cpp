@@ -124,16 +124,20 @@ class Tiling {
   /// does not depend on the line's direction: it is seen from the same side, turned or not; and as
   /// wide as high, so that it depends neither on the slab's height nor on where the line leads.
   void fill_upright(const Vec3& from, const Vec3& to) {
-    const unsigned axis = std::abs(to[0] - from[0]) >= std::abs(to[1] - from[1]) ? 0 : 1;
-    const auto [low, high] = std::minmax(from[axis], to[axis]);
+    const bool is_along_x = std::abs(to[0] - from[0]) >= std::abs(to[1] - from[1]);
+    const auto along = [&](const Vec3& p) {
+      const Point flat = slab_.in_overlay(p);
+      return is_along_x ? flat.x : flat.y;
+    };
+    const auto [low, high] = std::minmax({along(from), along(to)});
     const double bottom = slab_.lower().z;
     flat_.clear();
     for (const std::uint32_t node : polygon_) {
       const Vec3 p = place(node);
-      flat_.push_back({(p[axis] - low) / (high - low), (p[2] - bottom) / slab_.height()});
+      flat_.push_back({(along(p) - low) / (high - low), (p[2] - bottom) / slab_.height()});
     }
     const std::size_t count = tiles_.tiles.size();
-    if (polygon_.size() > 3) fill_polygon(to[axis] < from[axis]);
+    if (polygon_.size() > 3) fill_polygon(along(to) < along(from));
     if (tiles_.tiles.size() == count + polygon_.size() - 2) return;
     // A triangle; or rounding has bent the roof into the base: then what counts is to close it.
     tiles_.tiles.resize(count);
