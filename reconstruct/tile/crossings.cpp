@@ -23,7 +23,7 @@ namespace {
 /// the sheets' area times the slab's height, and the crossing's way aside, by the sheets' width.
 /// Bars that turn would take up to 2.6 of the former, and become four times as large. Where sheets
 /// are slivers, much narrower than the tiles are wide, little changes anyway: there unlike circles
-/// take up to 0.7, to have no vertices but their own.
+/// take up to 0.7, to have no vertices but their own. No halves and wholes: many are just there.
 constexpr double most_gain = 0.51;
 constexpr double most_gain_of_slivers = 0.76;
 constexpr double sliver = 1.0 / 32;
