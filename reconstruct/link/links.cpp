@@ -96,7 +96,7 @@ Point offset(const Piece& piece) {
   const double longest = std::max(
       {std::abs(way.x), std::abs(way.y), std::min(piece.lower.radius, piece.upper.radius)});
   if (!(longest > 0)) return {};
-  const double unit = std::ldexp(1.0, std::ilogb(longest) - 20);
+  const double unit = std::ldexp(1.0, std::ilogb(longest) - 40);
   return {std::round(way.x / unit) * unit, std::round(way.y / unit) * unit};
 }
 

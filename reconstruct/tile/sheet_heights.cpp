@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 namespace loft {
@@ -38,8 +39,10 @@ double SheetHeights::height(EdgeId e, Point p) {
   } else {
     const double lower = std::pow(sheet.lower.distance(p), steepness);
     const double upper = std::pow(sheet.upper.distance(p), steepness);
-    share = lower / (lower + upper);
+    // On an edge of both slices both are 0, as in the middle of a chord of a hair-thin sheet.
+    share = lower + upper > 0 ? lower / (lower + upper) : 0.5;
   }
+  assert(std::isfinite(share));
   return slab_.lower().z + std::clamp(share, least_share, 1 - least_share) * slab_.height();
 }
 

@@ -2,6 +2,7 @@
 #include "reconstruct/tile/slab.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -21,10 +22,40 @@ Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift, cdt::Tria
   refresh();
 }
 
+/// Where two things are near each other, there is a triangle between them that is no higher.
+bool Slab::has_near_contact(double contact) const {
+  for (std::uint32_t t = 0; t < overlay_.triangle_bound(); ++t) {
+    const cdt::TriangleId triangle(t);
+    if (overlay_.is_triangle(triangle) && is_lower(cdt::Triangulation::edge(triangle), contact))
+      return true;
+  }
+  return false;
+}
+
+std::optional<Slab> Slab::merged(const Region& lower, const Region& upper, cdt::Point shift,
+                                 double contact) {
+  Slab slab(lower, upper, shift, cdt::Triangulation(contact));
+  if (!slab.keeps_vertices(Level::lower) || !slab.keeps_vertices(Level::upper)) return {};
+  return slab;
+}
+
+/// Whether each contour vertex of a slice is an overlay vertex of its own.
+bool Slab::keeps_vertices(Level level) const {
+  const auto& loop_vertices = region(level).loop_vertices;
+  const std::size_t first = level == Level::lower ? 0 : lower_.loop_vertices.size();
+  for (std::size_t i = 0; i < loop_vertices.size(); ++i) {
+    const auto& segment = overlay_.segment(cdt::SegmentId(static_cast<std::uint32_t>(first + i)));
+    if (segment.from == segment.to || index(segment.from, level) != loop_vertices[i]) return false;
+  }
+  return true;
+}
+
 Vec3 Slab::place(cdt::VertexId v, double z) const {
   const double share = (z - lower_.z) / height();
   const cdt::Point p = overlay_.point(v);
-  return {p.x - share * shift_.x, p.y - share * shift_.y, z};
+  const Vec3 place{p.x - share * shift_.x, p.y - share * shift_.y, z};
+  assert(std::ranges::all_of(place, [](double x) { return std::isfinite(x); }));
+  return place;
 }
 
 bool Slab::is_exact() const {
