@@ -54,10 +54,9 @@ Extent extent(std::span<const ContourSource> contours) {
 /// Whether some of the contours are the same but for less than the tolerance, without coming so
 /// near that they could not be told apart.
 bool has_near_copies(std::span<const ContourSource> contours, double tolerance) {
-  std::vector<std::vector<Point>> places;
-  for (const ContourSource& contour : contours)
-    places.emplace_back(contour.points.begin(), contour.points.end());
-  return !find_near_copies(places, tolerance).empty();
+  std::vector<std::span<const Point>> rings;
+  for (const ContourSource& contour : contours) rings.push_back(contour.points);
+  return !find_near_copies(rings, tolerance).empty();
 }
 
 /// The cleaning of one slice, stage by stage.
@@ -119,7 +118,7 @@ class Cleaning {
 
   void choose_contours() {
     std::map<std::vector<Point>, std::size_t> seen;  // where the first one is in rings_
-    std::vector<std::vector<Point>> places;          // of each of these
+    std::vector<std::span<const Point>> places;      // of each of these
     for (std::uint32_t i = 0; i < contours_.size(); ++i) {
       NormalForm form = normal_form(contours_[i].points);
       if (form.places.empty() || are_in_line(form.places)) {
@@ -132,9 +131,9 @@ class Cleaning {
             .place = form.places.front();
       Ring ring{i, {}, form.turns_left};
       if (form.laps > 1) ring.numbers = std::move(form.numbers);
-      if (!seen.contains(form.places)) places.push_back(form.places);
       const auto [other, is_new] = seen.try_emplace(std::move(form.places), rings_.size());
       if (is_new) {
+        places.emplace_back(other->first);
         rings_.push_back(std::move(ring));
       } else {
         drop_copy(rings_[other->second], std::move(ring));
@@ -144,7 +143,7 @@ class Cleaning {
     if (filling_.rule == Fill::keyhole_aware) cut_channels();
   }
 
-  void drop_near_copies(std::span<const std::vector<Point>> places) {
+  void drop_near_copies(std::span<const std::span<const Point>> places) {
     const std::vector<NearCopy> copies = find_near_copies(places, tolerance_);
     if (copies.empty()) return;
     std::vector<bool> is_dropped(rings_.size());
