@@ -27,7 +27,16 @@ class BoxTree {
   /// Calls visit(i, j) once for every two boxes that meet.
   template <class Visit>
   void for_each_pair(Visit visit) const {
-    if (!nodes_.empty()) pair_within(0, visit);
+    all_of_pairs([&](std::uint32_t i, std::uint32_t j) {
+      visit(i, j);
+      return true;
+    });
+  }
+
+  /// Whether a test holds for every two boxes that meet; stops at the first that fail.
+  template <class Test>
+  bool all_of_pairs(Test test) const {
+    return nodes_.empty() || pair_within(0, test);
   }
 
  private:
@@ -49,12 +58,12 @@ class BoxTree {
 
   template <class Visit>
   void search(std::uint32_t node, const Box3& query, Visit& visit) const;
-  template <class Visit>
-  void pair_within(std::uint32_t node, Visit& visit) const;
-  template <class Visit>
-  void pair_between(std::uint32_t a, std::uint32_t b, Visit& visit) const;
-  template <class Visit>
-  void pair_leaves(const Node& a, const Node& b, Visit& visit) const;
+  template <class Test>
+  bool pair_within(std::uint32_t node, Test& test) const;
+  template <class Test>
+  bool pair_between(std::uint32_t a, std::uint32_t b, Test& test) const;
+  template <class Test>
+  bool pair_leaves(const Node& a, const Node& b, Test& test) const;
 
   std::vector<Item> items_;
   std::vector<Node> nodes_;  ///< root first, parents before children
@@ -74,47 +83,43 @@ void BoxTree::search(std::uint32_t node, const Box3& query, Visit& visit) const 
   }
 }
 
-template <class Visit>
-void BoxTree::pair_within(std::uint32_t node, Visit& visit) const {
+template <class Test>
+bool BoxTree::pair_within(std::uint32_t node, Test& test) const {
   const Node& n = nodes_[node];
-  if (n.second != 0) {
-    pair_within(node + 1, visit);
-    pair_within(n.second, visit);
-    pair_between(node + 1, n.second, visit);
-    return;
-  }
+  if (n.second != 0)
+    return pair_within(node + 1, test) && pair_within(n.second, test) &&
+           pair_between(node + 1, n.second, test);
   for (std::uint32_t i = n.first; i < n.last; ++i) {
     for (std::uint32_t j = i + 1; j < n.last; ++j) {
-      if (boxes_meet(items_[i].box, items_[j].box)) visit(items_[i].index, items_[j].index);
+      if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))
+        return false;
     }
   }
+  return true;
 }
 
 /// Descends into the node of more boxes first.
-template <class Visit>
-void BoxTree::pair_between(std::uint32_t a, std::uint32_t b, Visit& visit) const {
+template <class Test>
+bool BoxTree::pair_between(std::uint32_t a, std::uint32_t b, Test& test) const {
   const Node& node_a = nodes_[a];
   const Node& node_b = nodes_[b];
-  if (!boxes_meet(node_a.box, node_b.box)) return;
-  if (node_a.second == 0 && node_b.second == 0) {
-    pair_leaves(node_a, node_b, visit);
-  } else if (node_a.last - node_a.first >= node_b.last - node_b.first) {
-    pair_between(a + 1, b, visit);
-    pair_between(node_a.second, b, visit);
-  } else {
-    pair_between(a, b + 1, visit);
-    pair_between(a, node_b.second, visit);
-  }
+  if (!boxes_meet(node_a.box, node_b.box)) return true;
+  if (node_a.second == 0 && node_b.second == 0) return pair_leaves(node_a, node_b, test);
+  if (node_a.last - node_a.first >= node_b.last - node_b.first)
+    return pair_between(a + 1, b, test) && pair_between(node_a.second, b, test);
+  return pair_between(a, b + 1, test) && pair_between(a, node_b.second, test);
 }
 
-template <class Visit>
-void BoxTree::pair_leaves(const Node& a, const Node& b, Visit& visit) const {
+template <class Test>
+bool BoxTree::pair_leaves(const Node& a, const Node& b, Test& test) const {
   for (std::uint32_t i = a.first; i < a.last; ++i) {
     if (!boxes_meet(items_[i].box, b.box)) continue;
     for (std::uint32_t j = b.first; j < b.last; ++j) {
-      if (boxes_meet(items_[i].box, items_[j].box)) visit(items_[i].index, items_[j].index);
+      if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))
+        return false;
     }
   }
+  return true;
 }
 
 }  // namespace loft

@@ -151,13 +151,15 @@ BoxTree tree_of(const Mesh& mesh, std::span<const std::uint32_t> faces) {
   return BoxTree(boxes);
 }
 
-/// The pairs of faces that meet, in order.
+/// The pairs of faces that meet, in order; of too many those that were found first.
 std::vector<FacePair> meeting_faces(const Mesh& mesh, std::span<const std::uint32_t> faces,
                                     const BoxTree& tree) {
   std::vector<FacePair> result;
-  tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+  const std::size_t most = most_intersections(mesh);
+  tree.all_of_pairs([&](std::uint32_t i, std::uint32_t j) {
     const auto [f, g] = std::minmax({faces[i], faces[j]});
     if (triangles_meet(corners(mesh, f), corners(mesh, g))) result.emplace_back(f, g);
+    return result.size() < most;
   });
   std::ranges::sort(result);
   return result;
@@ -228,6 +230,8 @@ const char* name(Fault fault) {
   return "unknown";
 }
 
+std::size_t most_intersections(const Mesh& mesh) { return 1000 + 4 * mesh.faces.size(); }
+
 std::vector<Finding> check(const Mesh& mesh) {
   Findings findings;
   find_bad_indices(mesh, findings);
@@ -245,8 +249,10 @@ std::vector<Finding> check(const Mesh& mesh) {
 
   const BoxTree tree = tree_of(mesh, with_area);
   const std::vector<FacePair> meeting = meeting_faces(mesh, with_area, tree);
-  const auto component = shell_components(mesh, edges, proper, meeting);
-  find_inside_out(shells(mesh, component, with_area, tree), findings);
+  if (meeting.size() < most_intersections(mesh)) {
+    const auto component = shell_components(mesh, edges, proper, meeting);
+    find_inside_out(shells(mesh, component, with_area, tree), findings);
+  }
   for (const auto& [f, g] : meeting) findings.push_back({Fault::self_intersection, {f, g}, {}});
   return findings;
 }

@@ -41,8 +41,13 @@ struct Finding {
 /// volume beyond rounding. Faces without area, and those with a coordinate that is not finite or
 /// out of range, are left out of self-intersections; those that name a vertex twice, of topology as
 /// well. Findings come in the order of Fault, then of the elements.
+/// Of self-intersections at most most_intersections(mesh) are found, so that memory is bounded by
+/// the size of the mesh; where there are that many there may be more, and inside_out is not asked.
 /// Cost: O(n log n) in practice.
 [[nodiscard]] std::vector<Finding> check(const Mesh& mesh);
+
+/// How many self-intersections check() looks for: what n faces have may be n * n / 2 of them.
+[[nodiscard]] std::size_t most_intersections(const Mesh& mesh);
 
 /// Where a surface touches itself in corners and edges that its parts have each for themselves:
 /// as a solid may that was made from contours with corner contacts. No fault.

@@ -26,6 +26,7 @@ struct Verdict {
   Measures measures;
   Contacts contacts;
   std::map<Fault, std::vector<Finding>> faults;
+  bool has_more = false;  ///< faces may meet elsewhere, too; check() has stopped
 };
 
 std::vector<Verdict> judge(const std::vector<io::LabelledMesh>& meshes) {
@@ -34,6 +35,9 @@ std::vector<Verdict> judge(const std::vector<io::LabelledMesh>& meshes) {
     Verdict verdict{label, measure(mesh), contacts(mesh), {}};
     for (Finding& finding : check(mesh))
       verdict.faults[finding.fault].push_back(std::move(finding));
+    const auto meeting = verdict.faults.find(Fault::self_intersection);
+    verdict.has_more =
+        meeting != verdict.faults.end() && meeting->second.size() >= most_intersections(mesh);
     verdicts.push_back(std::move(verdict));
   }
   return verdicts;
@@ -66,7 +70,9 @@ void print_verdict(const std::string& name, const Verdict& verdict) {
   std::cout << "  " << describe(verdict.measures, "") << '\n';
   print_contacts(verdict.contacts);
   for (const auto& [fault, findings] : verdict.faults) {
-    std::cout << "  " << loft::name(fault) << ": " << grouped(findings.size()) << ", first at"
+    const bool has_more = verdict.has_more && fault == Fault::self_intersection;
+    std::cout << "  " << loft::name(fault) << ": " << grouped(findings.size())
+              << (has_more ? " or more" : "") << (has_more ? ", one at" : ", first at")
               << where(findings.front()) << '\n';
   }
 }
@@ -88,7 +94,8 @@ void print_fidelity(const std::string& name, const Fidelity& fidelity, bool is_e
 
 /// The object that `loft check --json` prints: schema "loft-check", schema_version 1, mesh, valid,
 /// parts (label, valid, counts and measures, touching: points and edges, faults by name), stack
-/// (name, counts). Faces that cross are the fault self_intersection; touching is none.
+/// (name, counts); of faults of which there may be more, more_faults is true. Faces that cross are
+/// the fault self_intersection; touching is none.
 void add_verdicts(Json& json, const CheckCommand& command, const std::vector<Verdict>& verdicts,
                   const std::optional<Fidelity>& fidelity) {
   json["valid"] = std::ranges::all_of(verdicts, [](const Verdict& v) { return v.faults.empty(); });
@@ -103,6 +110,7 @@ void add_verdicts(Json& json, const CheckCommand& command, const std::vector<Ver
     for (const auto& [fault, findings] : verdict.faults) {
       part["faults"][loft::name(fault)] = findings.size();
     }
+    if (verdict.has_more) part["more_faults"] = true;
     json["parts"].push_back(std::move(part));
   }
   if (!fidelity) return;

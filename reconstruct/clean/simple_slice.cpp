@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "cdt/predicates.h"
+#include "mesh/box_tree.h"
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/plane/nearest.h"
 #include "reconstruct/plane/tile_grid.h"
@@ -23,6 +24,9 @@ constexpr std::size_t most_steps = 64;
 bool overlap(const Box& a, const Box& b) {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
+
+/// A point of the plane, for trees of boxes in space.
+Vec3 flat(Point p) { return {p.x, p.y, 0}; }
 
 class SimpleSlice {
  public:
@@ -147,22 +151,26 @@ class SimpleSlice {
 
   /// Which way round each outline has the region on its left, from those that enclose it.
   bool find_directions(Fill rule) {
+    std::vector<Box3> boxes;
+    boxes.reserve(outlines_.size());
+    for (const Outline& outline : outlines_)
+      boxes.push_back({flat(outline.box.low), flat(outline.box.high)});
+    const BoxTree tree(boxes);
+    const std::size_t most = most_steps * edges_.size();
     std::size_t steps = 0;
     for (std::uint32_t c = 0; c < outlines_.size(); ++c) {
       Outline& outline = outlines_[c];
       const Point p = points(c)[outline.smallest];
       int depth = 0;
       int winding = 0;
-      for (std::uint32_t d = 0; d < outlines_.size(); ++d) {
-        const Box& box = outlines_[d].box;
-        if (d == c || p.x < box.low.x || p.x > box.high.x || p.y < box.low.y || p.y > box.high.y)
-          continue;
+      tree.for_each_meeting({flat(p), flat(p)}, [&](std::uint32_t d) {
+        if (d == c || steps > most) return;
         steps += size(d);
-        if (steps > most_steps * edges_.size()) return false;
-        if (!encloses(d, p)) continue;
+        if (steps > most || !encloses(d, p)) return;
         ++depth;
         winding += outlines_[d].turns_left ? 1 : -1;
-      }
+      });
+      if (steps > most) return false;
       if (rule == Fill::even_odd) {
         outline.goes_left = depth % 2 == 0;
         continue;

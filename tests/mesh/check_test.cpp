@@ -169,6 +169,15 @@ TEST(Check, FindsVerticesOfMoreThanOneFan) {
   EXPECT_EQ(finding.faces.size(), 2U);
 }
 
+TEST(Check, FacesRepeatedManyTimesTakeMemoryInProportion) {
+  Mesh mesh = cube({0, 0, 0}, 1);
+  const auto face = mesh.faces.front();
+  for (int i = 0; i < 2000; ++i) mesh.faces.push_back(face);
+  const Counts counts = faults(mesh);
+  EXPECT_EQ(counts.at("self_intersection"), static_cast<int>(most_intersections(mesh)));
+  EXPECT_FALSE(counts.contains("inside_out"));
+}
+
 TEST(Check, FindsFacesThatDisagree) {
   Mesh mesh = cube({0, 0, 0}, 1);
   std::swap(mesh.faces[4][0], mesh.faces[4][1]);
