@@ -19,6 +19,7 @@
 
 #include "app/capture/surfaces.h"
 #include "app/server/assets.h"
+#include "app/server/gate.h"
 #include "app/server/http.h"
 #include "io/bytes/file.h"
 #include "io/bytes/text.h"
@@ -34,8 +35,6 @@ using httplib::Request;
 using httplib::Response;
 using std::chrono::milliseconds;
 
-/// Each viewer and each request that is being answered takes one.
-constexpr std::size_t thread_count = 48;
 constexpr int most_viewers = 32;
 
 constexpr milliseconds patience{5000};         // of a POST while the queue is full
@@ -78,22 +77,11 @@ struct Line {
 class Server::Routes {
  public:
   Routes(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
-      : setup_(setup), shown_(shown), feed_(feed), capture_(capture) {
-    http_.new_task_queue = [] { return new httplib::ThreadPool(thread_count); };
+      : setup_(setup), shown_(shown), feed_(feed), capture_(capture), http_(limits(setup)) {
     http_.set_payload_max_length(setup.most_bytes);
-    http_.set_read_timeout(10);
-    http_.set_write_timeout(5);
-    http_.set_keep_alive_timeout(2);
-    http_.set_keep_alive_max_count(100'000);
-    http_.set_tcp_nodelay(true);
     http_.set_default_headers({{"Cache-Control", "no-store"},
                                {"X-Content-Type-Options", "nosniff"},
                                {"Referrer-Policy", "no-referrer"}});
-    // Else two programs could listen on one port, and edits would go to either.
-    http_.set_socket_options([](socket_t socket) {
-      const int yes = 1;
-      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
     http_.set_pre_routing_handler([this](const Request& request, Response& response) {
       static const std::array with_body{"POST", "PUT", "PATCH", "DELETE"};
       // A body has to be read before it is refused: else it would be taken for the next request.
@@ -113,28 +101,30 @@ class Server::Routes {
             std::rethrow_exception(thrown);
           } catch (const std::exception& error) {
             refuse(response, 500, error.what());
+          } catch (...) {
+            refuse(response, 500, "something went wrong");
           }
         });
     add_routes();
   }
 
-  [[nodiscard]] int bind() {
-    if (setup_.port == 0) return http_.bind_to_any_port(setup_.host);
-    return http_.bind_to_port(setup_.host, setup_.port) ? setup_.port : -1;
-  }
+  [[nodiscard]] int bind() { return http_.open(setup_.host, setup_.port); }
 
-  void serve() {
-    thread_ = std::thread([this] { http_.listen_after_bind(); });
-    while (!http_.is_running()) std::this_thread::sleep_for(milliseconds(1));
-  }
+  void serve() { http_.serve(); }
 
   void stop() {
     is_stopping_ = true;
-    http_.stop();
-    if (thread_.joinable()) thread_.join();
+    http_.close();
   }
 
  private:
+  [[nodiscard]] static Gate::Limits limits(const Setup& setup) {
+    Gate::Limits limits;
+    limits.request.most_body = setup.most_bytes;
+    limits.most_bytes_in = std::max(4 * setup.most_bytes, limits.most_bytes_in);
+    return limits;
+  }
+
   /// Pages of other sites can make a browser send requests here, and can name this machine as they
   /// like.
   [[nodiscard]] bool admit(const Request& request, Response& response) const {
@@ -386,7 +376,7 @@ class Server::Routes {
   /// runs into the write timeout.
   bool feed(Cursor& cursor, httplib::DataSink& sink) const {
     constexpr milliseconds step{200};
-    if (is_stopping_) return false;
+    if (is_stopping_ || !sink.is_writable()) return false;
     if (cursor.next == 0) return start(cursor, sink);
     const Feed::Reading reading = feed_.read(cursor.next, step);
     switch (reading.outcome) {
@@ -424,12 +414,11 @@ class Server::Routes {
   Shown& shown_;
   const Feed& feed_;
   Capture* capture_;
-  httplib::Server http_;
   /// Tells events of this run from those of others.
   std::string token_ = std::to_string(std::random_device()()) + '.';
-  std::thread thread_;
   std::atomic<bool> is_stopping_ = false;
   std::atomic<int> viewers_ = 0;
+  Gate http_;  // ends before what its requests use
 };
 
 Server::Server(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
