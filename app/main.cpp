@@ -11,6 +11,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/out_of_core.h"
 #include "app/descriptors.h"
+#include "app/interrupt.h"
 #include "app/terminal.h"
 #include "app/unit.h"
 #include "cdt/triangulation.h"
@@ -260,6 +261,15 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
                   "Largest body of a request, in MiB (default 16)")
       ->type_name("MIB")
       ->check(CLI::Range(1U, 1024U));
+  sub->add_option("--max-effort", command.most_effort,
+                  "Most that one edit may take, in millions of steps (default 2000, a minute or "
+                  "so); beyond, it is rejected")
+      ->type_name("N")
+      ->check(CLI::Range(0.001, 1e9));
+  sub->add_option("--token", command.token,
+                  "What those who send edits from beyond this machine must know (--host; drawn "
+                  "and printed where not given): Authorization: Bearer TOKEN")
+      ->type_name("TOKEN");
   add_slice_options(*sub, command.options);
   add_slab_options(*sub, command.options);
   add_address_options(*sub, command);
@@ -415,8 +425,10 @@ ExitCode run_program(int argc, char** argv) {
     return run(stream);
   }
   if (view_app->parsed()) return run(view);
-  if (session_app->parsed()) return run(session);
   if (triangulate_app->parsed()) return run(triangulate);
+  // What follows does not look for interrupts: it is ended.
+  catch_interrupts(std::chrono::milliseconds(0));
+  if (session_app->parsed()) return run(session);
   return check_app->parsed() ? run(check) : run(info);
 }
 

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cdt/effort.h"
 #include "cdt/predicates.h"
 #include "cdt/rounding.h"
 #include "cdt/triangulation.h"
@@ -143,6 +144,7 @@ void Triangulation::doubt_point_beside(VertexId v, SegmentId s) {
 
 /// Makes and marks the straight edge between two vertices if nothing is between them.
 bool Triangulation::connect(VertexId from, VertexId to, SegmentId s) {
+  spend(8);
   EdgeId e = edge_between(to, from);
   if (!e.is_none()) {
     mark(twin(e), s);

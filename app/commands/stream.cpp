@@ -243,6 +243,7 @@ class Stream {
 
   /// The outputs come first: requests that take long may hold the server up.
   ExitCode finish() {
+    if (is_interrupted()) capture_.close(milliseconds(400));
     capture_.close();
     saver_.finish();  // what it writes is older
     if (const std::string error = saver_.take_error(); !error.empty()) complain(error);

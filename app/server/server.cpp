@@ -52,7 +52,7 @@ std::optional<Number> number(std::string_view text) {
 
 /// So many lines, problems of a line or repairs are answered; the others are counted.
 constexpr std::size_t most_lines = 1 << 16;
-constexpr std::size_t most_words = 100;
+constexpr std::size_t most_words = 20;
 
 /// The first of some words, and how many others there are.
 std::vector<std::string> cut(std::vector<std::string> words) {
@@ -296,7 +296,9 @@ class Server::Routes {
         json["latency_ms"] = given.latency_ms;
         return json;
       }
-      line.status = given.outcome == Answer::Outcome::rejected ? 422 : 507;
+      line.status = given.outcome == Answer::Outcome::rejected ? 422
+                    : given.outcome == Answer::Outcome::ended  ? 503
+                                                               : 507;
       line.error = given.error;
     }
     json["error"] = line.error;

@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <mutex>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -28,6 +30,18 @@ path folder_of(const path& file) {
 bool is_open_file(const path& file) {
   std::error_code ignored;
   return std::filesystem::canonical(folder_of(file), ignored).string().starts_with("/proc/");
+}
+
+/// The temporary files that there are, of all threads.
+struct Temporaries {
+  std::mutex mutex;
+  std::set<path> names;
+};
+
+/// Never destroyed: threads may write while the program ends.
+Temporaries& temporaries() {
+  static auto* const all = new Temporaries;
+  return *all;
 }
 
 /// Where links lead, whether there is a file or not.
@@ -96,7 +110,15 @@ AtomicFile::AtomicFile(path name) : path_(std::move(name)), target_(follow_links
   }
 }
 
+void abandon_atomic_files() {
+  Temporaries& all = temporaries();
+  all.mutex.lock();  // for good
+  std::error_code ignored;
+  for (const path& name : all.names) std::filesystem::remove(name, ignored);
+}
+
 void AtomicFile::create_temporary() {
+  const std::lock_guard lock(temporaries().mutex);
   constexpr int attempts = 1000;
   for (int number = 0; number < attempts && lock_ < 0; ++number) {
     std::string name(1, '.');
@@ -107,14 +129,17 @@ void AtomicFile::create_temporary() {
     if (lock_ < 0) lock_ = take_over(temporary_);
   }
   if (lock_ < 0) throw FileError(Access::write, path_, last_cause());
+  temporaries().names.insert(temporary_);
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
 }
 
 AtomicFile::~AtomicFile() {
   if (lock_ < 0) return;
   stream_.close();
+  const std::lock_guard lock(temporaries().mutex);
   std::error_code ignored;
   if (!committed_) std::filesystem::remove(temporary_, ignored);
+  temporaries().names.erase(temporary_);
   ::close(lock_);
 }
 
@@ -134,6 +159,7 @@ void AtomicFile::commit() {
   stream_.close();
   if (!stream_) throw FileError(Access::write, path_, errno != 0 ? last_cause() : "write failed");
   std::error_code error;
+  const std::lock_guard lock(temporaries().mutex);
   if (lock_ >= 0) std::filesystem::rename(temporary_, target_, error);
   if (error) throw FileError(Access::write, path_, error.message());
   committed_ = true;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "cdt/effort.h"
 #include "mesh/predicates.h"
 #include "mesh/vec3.h"
 #include "reconstruct/plane/tile_grid.h"
@@ -187,7 +188,9 @@ class Collapse {
   }
 
   bool collapse(std::uint32_t p) {
+    cdt::spend();
     if (!find_link(p)) return false;
+    cdt::spend(link_.size() * link_.size());  // a fan for each of its nodes
     std::vector<Target> targets;
     for (std::size_t i = 0; i < link_.size(); ++i) {
       if (!is_contour(link_[i]) || !keeps_topology(p, i)) continue;
@@ -263,6 +266,7 @@ class Collapse {
     for (const Nodes& nodes : fan_) {
       const Corners corners = places(nodes);
       const bool is_free = grid_->all_of_near(footprint(nodes), [&](std::uint32_t face) {
+        cdt::spend();
         if (tests_left_ == 0) return false;
         --tests_left_;
         const Nodes& other = tiles_[face].nodes;
