@@ -134,10 +134,14 @@ class Stream {
 
   void serve() {
     server_.emplace(Server::Setup{.host = command_.host,
+                                  .token = command_.token,
                                   .port = command_.port,
                                   .most_bytes = command_.most_megabytes << 20U},
                     shown_, feed_, &capture_);
     terminal_.say("listening on " + server_->url());
+    // Said even with --quiet: without it nobody could send an edit.
+    if (!server_->token().empty() && command_.token.empty())
+      std::cerr << "edits need this token: " << server_->token() << std::endl;
   }
 
   void read_input() {

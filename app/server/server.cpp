@@ -50,6 +50,13 @@ std::optional<Number> number(std::string_view text) {
   return value;
 }
 
+std::string random_token() {
+  std::random_device random;  // of the system
+  std::string token;
+  for (int i = 0; i < 32; ++i) token += "0123456789abcdef"[random() % 16];
+  return token;
+}
+
 /// So many lines, problems of a line or repairs are answered; the others are counted.
 constexpr std::size_t most_lines = 1 << 16;
 constexpr std::size_t most_words = 20;
@@ -108,7 +115,7 @@ class Server::Routes {
     add_routes();
   }
 
-  [[nodiscard]] int bind() { return http_.open(setup_.host, setup_.port); }
+  [[nodiscard]] int bind() { return port_ = http_.open(setup_.host, setup_.port); }
 
   void serve() { http_.serve(); }
 
@@ -126,19 +133,50 @@ class Server::Routes {
   }
 
   /// Pages of other sites can make a browser send requests here, and can name this machine as they
-  /// like.
+  /// like: only what names the address that is listened to is answered, and changes come from our
+  /// own page or from none.
   [[nodiscard]] bool admit(const Request& request, Response& response) const {
     const std::string host = request.get_header_value("Host");
-    if (is_loopback(setup_.host) && !is_loopback(host)) {
-      refuse(response, 403, "the host is not this machine; start with --host to allow others");
+    if (!is_own(host)) {
+      refuse(response, 403,
+             "the host is not this machine at port " + std::to_string(port_) +
+                 "; start with --host to allow others");
       return false;
     }
-    const std::string origin = request.get_header_value("Origin");
-    if (!origin.empty() && origin != "http://" + host && request.method != "GET") {
+    if (request.method == "GET" || request.method == "HEAD") return true;
+    const bool is_foreign =
+        request.has_header("Origin") && request.get_header_value("Origin") != "http://" + host;
+    const std::string site = request.get_header_value("Sec-Fetch-Site");
+    if (is_foreign || (!site.empty() && site != "same-origin" && site != "none")) {
       refuse(response, 403, "pages of other sites may not send edits");
       return false;
     }
-    return true;
+    if (setup_.token.empty() ||
+        is_same(request.get_header_value("Authorization"), "Bearer " + setup_.token))
+      return true;
+    response.set_header("WWW-Authenticate", "Bearer");
+    refuse(response, 401,
+           "edits need the token that was printed at the start: Authorization: "
+           "Bearer TOKEN");
+    return false;
+  }
+
+  /// Whether a Host header names this machine, or what --host says, and the port.
+  [[nodiscard]] bool is_own(const std::string& host) const {
+    const auto named = parse_host(host);
+    if (!named || named->port.value_or(80) != port_) return false;
+    if (is_loopback(named->name)) return true;
+    if (is_loopback(setup_.host)) return false;
+    // Names lead here that a page of another site has chosen; addresses do not.
+    return named->name == setup_.host || is_address(named->name);
+  }
+
+  /// In the same time wherever they differ.
+  [[nodiscard]] static bool is_same(const std::string& given, const std::string& wanted) {
+    unsigned difference = given.size() == wanted.size() ? 0 : 1;
+    for (std::size_t i = 0; i < given.size() && i < wanted.size(); ++i)
+      difference |= static_cast<unsigned char>(given[i]) ^ static_cast<unsigned char>(wanted[i]);
+    return difference == 0;
   }
 
   [[nodiscard]] static bool is_known(const std::string& path) {
@@ -413,6 +451,7 @@ class Server::Routes {
   }
 
   Setup setup_;
+  int port_ = 0;
   Shown& shown_;
   const Feed& feed_;
   Capture* capture_;
@@ -423,8 +462,12 @@ class Server::Routes {
   Gate http_;  // ends before what its requests use
 };
 
-Server::Server(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
-    : routes_(std::make_unique<Routes>(setup, shown, feed, capture)) {
+Server::Server(const Setup& wanted, Shown& shown, const Feed& feed, Capture* capture) {
+  Setup setup = wanted;
+  if (setup.token.empty() && capture != nullptr && !is_loopback(setup.host))
+    setup.token = random_token();
+  token_ = setup.token;
+  routes_ = std::make_unique<Routes>(setup, shown, feed, capture);
   errno = 0;
   const int port = routes_->bind();
   if (port < 0)
