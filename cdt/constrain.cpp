@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cdt/effort.h"
 #include "cdt/predicates.h"
 #include "cdt/rounding.h"
 #include "cdt/triangulation.h"
@@ -137,6 +138,7 @@ bool Triangulation::crosses_at(SegmentId one, SegmentId other, Point place) cons
 
 /// Makes and marks the straight edge between two vertices; none if something is between them.
 EdgeId Triangulation::connect(VertexId from, VertexId to, SegmentId s) {
+  spend(8);
   EdgeId e = edge_between(from, to);
   if (e.is_none()) {
     const Obstacle obstacle = walk(from, to, point(from), point(to));

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "cdt/effort.h"
 #include "cdt/predicates.h"
 #include "cdt/triangulation.h"
 
@@ -22,6 +23,7 @@ EdgeId Triangulation::hint_for(Point p) const {
 /// leave a triangle through an edge that has the point on its other side; of two such edges, now
 /// one, now the other, so that it ends in any triangulation.
 Location Triangulation::locate(Point p, EdgeId hint) const {
+  spend(4);
   if (triangle_count() == 0 || !std::isfinite(p.x) || !std::isfinite(p.y)) return {};
   EdgeId e = hint.is_none() || !is_triangle(triangle(hint)) ? last_ : hint;
   if (is_flat_) return locate_flat(p, e);

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "cdt/effort.h"
 #include "mesh/box3.h"
 
 namespace loft {
@@ -72,6 +73,7 @@ class BoxTree {
 template <class Visit>
 void BoxTree::search(std::uint32_t node, const Box3& query, Visit& visit) const {
   const Node& n = nodes_[node];
+  cdt::spend();
   if (!boxes_meet(n.box, query)) return;
   if (n.second != 0) {
     search(node + 1, query, visit);
@@ -103,6 +105,7 @@ template <class Test>
 bool BoxTree::pair_between(std::uint32_t a, std::uint32_t b, Test& test) const {
   const Node& node_a = nodes_[a];
   const Node& node_b = nodes_[b];
+  cdt::spend();
   if (!boxes_meet(node_a.box, node_b.box)) return true;
   if (node_a.second == 0 && node_b.second == 0) return pair_leaves(node_a, node_b, test);
   if (node_a.last - node_a.first >= node_b.last - node_b.first)
@@ -113,6 +116,7 @@ bool BoxTree::pair_between(std::uint32_t a, std::uint32_t b, Test& test) const {
 template <class Test>
 bool BoxTree::pair_leaves(const Node& a, const Node& b, Test& test) const {
   for (std::uint32_t i = a.first; i < a.last; ++i) {
+    cdt::spend();
     if (!boxes_meet(items_[i].box, b.box)) continue;
     for (std::uint32_t j = b.first; j < b.last; ++j) {
       if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))

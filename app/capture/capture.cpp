@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "app/memory.h"
+#include "cdt/effort.h"
 #include "io/bytes/file.h"
 #include "io/version.h"
 
@@ -56,57 +57,52 @@ Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
       surfaces_(single_threaded(setup_.options)) {
   if (session_ && setup_.observe) repeat_session();
   if (session_ && !setup_.observe) resume_session();
+  refresh();
   thread_ = std::thread([this] { run(); });
 }
 
 /// Edit by edit, for who wants to see each.
 void Capture::repeat_session() {
   session_->for_each([&](std::uint64_t number, Edit&& edit) {
-    const Applied applied = apply(edit);
+    const Applied applied = apply(edit, cdt::Effort::unlimited);
     if (applied.answer.outcome != Answer::Outcome::taken)
       throw cannot_be_applied(number, applied.answer.error);
-    applied.change.note_births(++edits_, births_);
-    setup_.observe(applied.change, *view_now());
+    applied.change.bring_up_to_date(++told_.edits, told_.slabs);
+    told_.view = make_view();
+    setup_.observe(applied.change, *told_.view);
   });
+  told_.stack = surfaces_.stack();
 }
 
 /// Makes the slices that the edits have left, each once, whatever the number of edits.
 void Capture::resume_session() {
   std::map<double, std::uint64_t> last_edits;  // of slices that are there, by height
   NetChange none;
-  io::StackState stack;
   session_->for_each([&](std::uint64_t number, Edit&& edit) {
     if (edit.kind != Edit::Kind::remove) surfaces_.add_labels(edit.slice, none);
-    if (const auto problem = stack.apply(edit)) throw cannot_be_applied(number, *problem);
-    last_edits[edit.slice.z] = ++edits_;
+    if (const auto problem = told_.stack.apply(edit)) throw cannot_be_applied(number, *problem);
+    last_edits[edit.slice.z] = ++told_.edits;
   });
-  for (const auto& [z, slice] : stack.slices()) {
+  for (const auto& [z, slice] : told_.stack.slices()) {
     try {
       surfaces_.insert(slice);
     } catch (const Error& error) {
       throw cannot_be_applied(last_edits.at(z), error.what());
     }
   }
-  note_births(last_edits);
+  tell_all(last_edits);
 }
 
 /// A slab is as old as the last edit of its slices.
-void Capture::note_births(const std::map<double, std::uint64_t>& last_edits) {
+void Capture::tell_all(const std::map<double, std::uint64_t>& last_edits) {
   const auto last = [&](double z) {
     const auto found = last_edits.find(z);  // not there beyond the ends, for domes
     return found == last_edits.end() ? 0 : found->second;
   };
-  for_each_slab([&](const SlabKey& key, const std::string&, const SlabInfo& slab) {
-    births_[key] = std::max(last(slab.low), last(slab.high));
-  });
-}
-
-template <class Visit>
-void Capture::for_each_slab(Visit visit) const {
   const auto parts = surfaces_.parts();
   for (std::size_t i = 0; i < parts.size(); ++i)
     for (const SlabInfo& slab : parts[i].surface->slabs())
-      visit(SlabKey{i, slab.id}, parts[i].label, slab);
+      told_.slabs[{i, slab.id}] = {parts[i].label, slab, std::max(last(slab.low), last(slab.high))};
 }
 
 Capture::~Capture() { close(); }
@@ -118,6 +114,17 @@ void Capture::close() {
   }
   queue_changed_.notify_all();
   if (thread_.joinable()) thread_.join();
+}
+
+void Capture::close(std::chrono::milliseconds patience) {
+  {
+    std::unique_lock lock(queue_mutex_);
+    is_closed_ = true;
+    queue_changed_.notify_all();
+    queue_changed_.wait_for(lock, patience, [this] { return is_done_; });
+  }
+  is_given_up_ = true;
+  close();
 }
 
 // --- The queue ---
@@ -156,7 +163,18 @@ std::vector<Capture::Job> Capture::next_jobs() {
 }
 
 void Capture::run() {
-  for (auto jobs = next_jobs(); !jobs.empty(); jobs = next_jobs()) work_off(std::move(jobs));
+  for (auto jobs = next_jobs(); !jobs.empty(); jobs = next_jobs()) {
+    try {
+      work_off(jobs);
+    } catch (const std::exception& error) {
+      // Such as no memory for the answers: those that wait for them are told so.
+      for (const Job& job : jobs)
+        if (job.done) job.done({Answer::Outcome::rejected, error.what()});
+    }
+  }
+  const std::lock_guard lock(queue_mutex_);
+  is_done_ = true;
+  queue_changed_.notify_all();
 }
 
 /// Those of a source that waits.
@@ -173,79 +191,103 @@ void Capture::give_back_held(std::vector<Job>& jobs) {
 }
 
 /// Applies some edits, keeps them, answers.
-void Capture::work_off(std::vector<Job> jobs) {
+void Capture::work_off(std::vector<Job>& jobs) {
   give_back_held(jobs);
-  begin_batch();
   std::vector<Applied> all;
-  std::vector<Edit> taken;
-  std::optional<io::InputPosition> position;
-  for (const Job& job : jobs) {
-    if (job.origin.position) position = job.origin.position;
-    const std::lock_guard lock(state_mutex_);
-    all.push_back(apply(job.edit));
-    if (all.back().answer.outcome == Answer::Outcome::taken) taken.push_back(job.edit);
+  for (const Job& job : jobs) all.push_back(apply(job.edit, setup_.most_effort));
+  const std::string failure = keep(jobs, all);
+  if (failure.empty()) {
+    tell(jobs, all);
+  } else {
+    take_back(jobs, all, failure);
   }
-  std::string failure;
-  try {
-    if (session_) session_->append(taken, position);
-  } catch (const Error& error) {
-    failure = error.what();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    // Each is answered once.
+    const Done done = std::exchange(jobs[i].done, nullptr);
+    if (done) done(all[i].answer);
   }
-  {
-    const std::lock_guard lock(state_mutex_);
-    if (failure.empty()) {
-      for (std::size_t i = 0; i < jobs.size(); ++i) {
-        Answer& answer = all[i].answer;
-        answer.latency_ms = milliseconds(Clock::now() - jobs[i].begin);
-        if (answer.outcome != Answer::Outcome::taken) {
-          ++rejected_;
-          show_undone(all[i].change);
-          continue;
-        }
-        all[i].change.note_births(++edits_, births_);
-        latencies_.push_back(answer.latency_ms);
-        if (latencies_.size() > latency_count) latencies_.pop_front();
-        publish(jobs[i].edit, all[i].change, answer.latency_ms);
-        if (setup_.observe) setup_.observe(all[i].change, *view_now());
-      }
-    } else {
-      NetChange undone;
-      for (const Applied& applied : all) undone.add(applied.change);
-      for (std::size_t i = jobs.size(); i-- > 0;) {
-        Applied& applied = all[i];
-        const bool is_taken = applied.answer.outcome == Answer::Outcome::taken;
-        const bool comes_again = is_taken && jobs[i].origin.is_held != nullptr;
-        if (!comes_again) ++rejected_;
-        if (!is_taken) continue;
-        surfaces_.take_back(applied.exchange, undone);
-        applied.answer = {Answer::Outcome::not_kept, failure};
-        applied.answer.edit = std::move(jobs[i].edit);
-      }
-      view_.reset();
-      show_undone(undone);
-    }
-    is_unpublished_ = false;
-  }
-  published_.notify_all();
-  for (std::size_t i = 0; i < jobs.size(); ++i)
-    if (jobs[i].done) jobs[i].done(all[i].answer);
 }
 
-/// From now on there are slabs that no event has told of. Viewers that start go first.
-void Capture::begin_batch() {
-  std::unique_lock lock(state_mutex_);
-  published_.wait(lock, [this] { return !is_waited_for_; });
-  is_unpublished_ = true;
+/// In the session, where there is one. What went wrong, or nothing.
+std::string Capture::keep(const std::vector<Job>& jobs, const std::vector<Applied>& all) {
+  if (!session_) return {};
+  std::vector<Edit> taken;
+  std::optional<io::InputPosition> position;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    if (all[i].answer.outcome == Answer::Outcome::ended) continue;  // it comes again
+    if (jobs[i].origin.position) position = jobs[i].origin.position;
+    if (all[i].answer.outcome == Answer::Outcome::taken) taken.push_back(jobs[i].edit);
+  }
+  try {
+    session_->append(taken, position);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return {};
+}
+
+void Capture::tell(const std::vector<Job>& jobs, std::vector<Applied>& all) {
+  const auto view = make_view();
+  const std::lock_guard lock(told_mutex_);
+  told_.view = view;
+  told_.counts = surfaces_.counts();
+  told_.volume = surfaces_.volume();
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    Answer& answer = all[i].answer;
+    answer.latency_ms = milliseconds(Clock::now() - jobs[i].begin);
+    if (answer.outcome != Answer::Outcome::taken) {
+      if (answer.outcome == Answer::Outcome::rejected) ++told_.rejected;
+      show_undone(all[i].change);
+      continue;
+    }
+    all[i].change.bring_up_to_date(++told_.edits, told_.slabs);
+    told_.stack.set(all[i].exchange.z, all[i].exchange.after);
+    told_.latencies.push_back(answer.latency_ms);
+    if (told_.latencies.size() > latency_count) told_.latencies.pop_front();
+    publish(jobs[i].edit, all[i].change, answer.latency_ms);
+    if (setup_.observe) setup_.observe(all[i].change, *told_.view);
+  }
+}
+
+void Capture::take_back(std::vector<Job>& jobs, std::vector<Applied>& all,
+                        const std::string& failure) {
+  NetChange undone;
+  std::uint64_t rejected = 0;
+  for (const Applied& applied : all) undone.add(applied.change);
+  for (std::size_t i = jobs.size(); i-- > 0;) {
+    Applied& applied = all[i];
+    const bool is_taken = applied.answer.outcome == Answer::Outcome::taken;
+    const bool comes_again = is_taken && jobs[i].origin.is_held != nullptr;
+    if (!comes_again && applied.answer.outcome != Answer::Outcome::ended) ++rejected;
+    if (!is_taken) continue;
+    surfaces_.take_back(applied.exchange, undone);
+    applied.answer = {Answer::Outcome::not_kept, failure};
+    applied.answer.edit = std::move(jobs[i].edit);
+  }
+  refresh();
+  const std::lock_guard lock(told_mutex_);
+  told_.rejected += rejected;
+  show_undone(undone);
 }
 
 // --- The surfaces ---
 
-Capture::Applied Capture::apply(const Edit& edit) {
+Capture::Applied Capture::apply(const Edit& edit, std::uint64_t most_effort) {
   Applied applied;
-  view_.reset();
+  if (is_given_up_) {
+    applied.answer = {Answer::Outcome::ended, "the capture has ended"};
+    return applied;
+  }
   try {
+    const cdt::Effort effort(most_effort, &is_given_up_);
     applied.exchange = surfaces_.apply(edit, applied.change);
-  } catch (const std::exception& error) {  // whatever an edit throws, the capture goes on
+  } catch (const cdt::TooMuchEffort&) {
+    applied.answer = {Answer::Outcome::rejected,
+                      "it would take more steps than an edit may (--max-effort); send simpler "
+                      "contours"};
+    if (is_given_up_) applied.answer = {Answer::Outcome::ended, "the capture has ended"};
+    return applied;
+  } catch (const std::exception& error) {  // whatever it is, the capture goes on
     applied.answer = {Answer::Outcome::rejected, error.what()};
     return applied;
   }
@@ -257,75 +299,69 @@ Capture::Applied Capture::apply(const Edit& edit) {
 
 // --- What others see ---
 
+void Capture::refresh() {
+  const auto view = make_view();
+  const std::lock_guard lock(told_mutex_);
+  told_.view = view;
+  told_.counts = surfaces_.counts();
+  told_.volume = surfaces_.volume();
+}
+
 /// Slabs were made anew on the way back from an edit that was not taken: viewers start again.
 void Capture::show_undone(const NetChange& change) {
   if (change.is_empty()) return;
-  change.note_births(edits_, births_);
+  change.bring_up_to_date(told_.edits, told_.slabs);
   feed_.publish("");
-  if (setup_.observe) setup_.observe(change, *view_now());
+  if (setup_.observe) setup_.observe(change, *told_.view);
 }
 
 void Capture::publish(const Edit& edit, const NetChange& change, double latency_ms) {
   const Json z = Json::array({edit.slice.z});
   const bool is_removal = edit.kind == Edit::Kind::remove;
   const Json event{{"removed", slab_names(change.removed())},
-                   {"added", change.added_as_json(edits_)},
+                   {"added", change.added_as_json(told_.edits)},
                    {"slices_removed", is_removal ? z : Json::array()},
                    {"slices_added", is_removal ? Json::array() : z},
-                   {"counts", surfaces_.counts()},
-                   {"volume", surfaces_.volume()},
+                   {"counts", told_.counts},
+                   {"volume", told_.volume},
                    {"latency_ms", latency_ms},
-                   {"edits", edits_}};
-  feed_.publish(event.dump());
+                   {"edits", told_.edits}};
+  feed_.publish(event.dump(-1, ' ', false, Json::error_handler_t::replace));
 }
 
 /// Made once for all viewers that start between two edits, and not while edits wait for it.
 std::pair<std::string, std::uint64_t> Capture::reset_event() const {
   const std::lock_guard reset_lock(reset_mutex_);
-  struct Shown {
-    SlabKey key;
-    std::string label;
-    SlabInfo slab;
-    std::uint64_t edit;
-  };
-  std::vector<Shown> shown;
+  std::vector<std::pair<SlabKey, ShownSlab>> shown;
   Json event;
   std::uint64_t next = 0;
   {
-    std::unique_lock lock(state_mutex_);
-    // What no event has told of yet would come a second time.
-    is_waited_for_ = true;
-    published_.wait(lock, [this] { return !is_unpublished_; });
-    is_waited_for_ = false;
-    published_.notify_all();
+    const std::lock_guard lock(told_mutex_);
     next = feed_.last() + 1;
     if (reset_ && reset_->second == next) return *reset_;
-    for_each_slab([&](const SlabKey& key, const std::string& label, const SlabInfo& slab) {
-      shown.push_back({key, label, slab, born(key)});
-    });
+    shown.assign(told_.slabs.begin(), told_.slabs.end());
     Json slices = Json::array();
-    for (const auto& [z, slice] : surfaces_.stack().slices()) slices.push_back(z);
+    for (const auto& [z, slice] : told_.stack.slices()) slices.push_back(z);
     event = {{"slices", std::move(slices)},
-             {"counts", surfaces_.counts()},
-             {"volume", surfaces_.volume()},
+             {"counts", told_.counts},
+             {"volume", told_.volume},
              {"unit", setup_.unit},
              {"metres_per_unit", setup_.metres_per_unit},
-             {"edits", edits_}};
+             {"edits", told_.edits}};
   }
   Json slabs = Json::array();
-  for (const Shown& one : shown) slabs.push_back(to_json(one.key, one.label, one.slab, one.edit));
+  for (const auto& [key, slab] : shown) slabs.push_back(to_json(key, slab));
   event["slabs"] = std::move(slabs);
-  reset_ = {event.dump(), next};
+  reset_ = {event.dump(-1, ' ', false, Json::error_handler_t::replace), next};
   return *reset_;
 }
 
-std::shared_ptr<const CaptureView> Capture::view() {
-  const std::lock_guard lock(state_mutex_);
-  return view_now();
+std::shared_ptr<const CaptureView> Capture::view() const {
+  const std::lock_guard lock(told_mutex_);
+  return told_.view;
 }
 
-std::shared_ptr<const CaptureView> Capture::view_now() {
-  if (view_) return view_;
+std::shared_ptr<const CaptureView> Capture::make_view() {
   auto view = std::make_shared<CaptureView>();
   for (const LabelledSurfaces::Part& part : surfaces_.parts())
     view->parts.push_back({part.label, part.surface->snapshot()});
@@ -340,44 +376,41 @@ std::shared_ptr<const CaptureView> Capture::view_now() {
     if (!patch.mesh.points.empty()) origin_ = patch.mesh.points.front();
   }
   view->origin = origin_.value_or(Vec3{});
-  view->edits = edits_;
-  view_ = std::move(view);
-  return view_;
+  return view;
 }
 
+/// What is gone comes from the edit that is being told.
 std::uint64_t Capture::birth(std::size_t part, std::uint32_t slab) const {
-  const std::lock_guard lock(state_mutex_);
-  return born({part, slab});
-}
-
-/// What is not noted yet comes from the edit that is being applied.
-std::uint64_t Capture::born(const SlabKey& slab) const {
-  const auto found = births_.find(slab);
-  return found == births_.end() ? edits_ + 1 : found->second;
+  const std::lock_guard lock(told_mutex_);
+  const auto found = told_.slabs.find({part, slab});
+  return found == told_.slabs.end() ? told_.edits + 1 : found->second.edit;
 }
 
 std::optional<Slice> Capture::slice(double z) const {
-  const std::lock_guard lock(state_mutex_);
-  const auto found = surfaces_.stack().find(z);
+  io::StackState::SharedSlice found;
+  {
+    const std::lock_guard lock(told_mutex_);
+    found = told_.stack.find(z);
+  }
   if (found == nullptr) return {};
   return *found;
 }
 
 std::vector<double> Capture::heights() const {
-  const std::lock_guard lock(state_mutex_);
+  const std::lock_guard lock(told_mutex_);
   std::vector<double> heights;
-  for (const auto& [z, slice] : surfaces_.stack().slices()) heights.push_back(z);
+  for (const auto& [z, slice] : told_.stack.slices()) heights.push_back(z);
   return heights;
 }
 
 std::uint64_t Capture::edit_count() const {
-  const std::lock_guard lock(state_mutex_);
-  return edits_;
+  const std::lock_guard lock(told_mutex_);
+  return told_.edits;
 }
 
 std::uint64_t Capture::rejected_count() const {
-  const std::lock_guard lock(state_mutex_);
-  return rejected_;
+  const std::lock_guard lock(told_mutex_);
+  return told_.rejected;
 }
 
 Json Capture::status() const {
@@ -386,17 +419,18 @@ Json Capture::status() const {
     const std::lock_guard lock(queue_mutex_);
     waiting = queue_.size();
   }
-  const std::lock_guard lock(state_mutex_);
-  std::vector<double> sorted(latencies_.begin(), latencies_.end());
+  const std::lock_guard lock(told_mutex_);
+  std::vector<double> sorted(told_.latencies.begin(), told_.latencies.end());
   std::ranges::sort(sorted);
   const auto at = [&](std::size_t percent) {
     return sorted.empty() ? 0 : sorted[(sorted.size() - 1) * percent / 100];
   };
-  Json status{{"edits", edits_}, {"rejected", rejected_}};
-  status.update(surfaces_.counts());
-  status["volume"] = surfaces_.volume();
-  status["latency_ms"] = {
-      {"median", at(50)}, {"p99", at(99)}, {"last", latencies_.empty() ? 0 : latencies_.back()}};
+  Json status{{"edits", told_.edits}, {"rejected", told_.rejected}};
+  status.update(told_.counts);
+  status["volume"] = told_.volume;
+  status["latency_ms"] = {{"median", at(50)},
+                          {"p99", at(99)},
+                          {"last", told_.latencies.empty() ? 0 : told_.latencies.back()}};
   status["queue"] = waiting;
   status["memory_bytes"] = memory_in_use();
   status["session"] = session_.has_value();

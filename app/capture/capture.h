@@ -32,6 +32,7 @@ struct Answer {
     taken,     ///< it is in the surface and, with a session, durable
     rejected,  ///< it makes no sense there: `error` says why
     not_kept,  ///< the session could not be written; the surface is as before
+    ended,     ///< the capture was ended before it could be taken
   };
 
   Outcome outcome = Outcome::taken;
@@ -58,12 +59,18 @@ struct CaptureView {
 /// applies them in their order, one label after the other; what has been applied since the last
 /// time goes into the session in one transaction; then it is answered, and viewers are told.
 /// What waits to be applied is bounded: submit() waits, and says so when it has waited long enough.
+///
+/// What others ask for is answered from what was last told of: nobody waits for an edit that is
+/// being applied. No edit ends the capture, whatever is thrown.
 class Capture {
  public:
   struct Setup {
     Options options = {};  ///< threads is ignored: one thread works
     std::string unit = "mm";
     double metres_per_unit = 0.001;
+    /// Steps that one edit may take (cdt/effort.h); beyond, it is rejected and nothing has changed.
+    /// What a session has is repeated whatever it takes.
+    std::uint64_t most_effort = 2'000'000'000;
     std::size_t most_waiting = 256;             ///< edits
     std::size_t most_points_waiting = 4 << 20;  ///< points in them
     /// Called after each edit that has changed slabs or was taken, in the capture's thread, in
@@ -93,9 +100,11 @@ class Capture {
   Submission submit(io::Edit edit, Done done, std::chrono::milliseconds patience, Origin origin);
   /// Takes no more; returns when everything that waits is done.
   void close();
+  /// The same; what is not done after that time is given up (Answer::Outcome::ended).
+  void close(std::chrono::milliseconds patience);
 
   /// The state after some edit; the same object as long as nothing changes.
-  [[nodiscard]] std::shared_ptr<const CaptureView> view();
+  [[nodiscard]] std::shared_ptr<const CaptureView> view() const;
   /// The number of the edit that made a slab.
   [[nodiscard]] std::uint64_t birth(std::size_t part, std::uint32_t slab) const;
   /// The slice at a height as it came in, or null.
@@ -122,21 +131,21 @@ class Capture {
   };
   struct Applied;
 
-  void begin_batch();
   void repeat_session();
   void resume_session();
-  void note_births(const std::map<double, std::uint64_t>& last_edits);
+  void tell_all(const std::map<double, std::uint64_t>& last_edits);
   void run();
   [[nodiscard]] std::vector<Job> next_jobs();
   static void give_back_held(std::vector<Job>& jobs);
-  void work_off(std::vector<Job> jobs);
-  [[nodiscard]] std::shared_ptr<const CaptureView> view_now();
-  [[nodiscard]] Applied apply(const io::Edit& edit);
-  template <class Visit>
-  void for_each_slab(Visit visit) const;
+  void work_off(std::vector<Job>& jobs);
+  [[nodiscard]] std::string keep(const std::vector<Job>& jobs, const std::vector<Applied>& all);
+  void tell(const std::vector<Job>& jobs, std::vector<Applied>& all);
+  void take_back(std::vector<Job>& jobs, std::vector<Applied>& all, const std::string& failure);
+  [[nodiscard]] std::shared_ptr<const CaptureView> make_view();
+  [[nodiscard]] Applied apply(const io::Edit& edit, std::uint64_t most_effort);
+  void refresh();
   void show_undone(const NetChange& change);
   void publish(const io::Edit& edit, const NetChange& change, double latency_ms);
-  [[nodiscard]] std::uint64_t born(const SlabKey& slab) const;
 
   Setup setup_;
   std::optional<io::Session> session_;
@@ -147,18 +156,25 @@ class Capture {
   std::deque<Job> queue_;
   std::size_t points_waiting_ = 0;
   bool is_closed_ = false;
+  bool is_done_ = false;
 
-  mutable std::mutex state_mutex_;  // of all below
-  LabelledSurfaces surfaces_;
-  std::shared_ptr<const CaptureView> view_;
+  LabelledSurfaces surfaces_;  // of the capture's thread alone, as the next one
   std::optional<Vec3> origin_;
-  std::map<SlabKey, std::uint64_t> births_;  // the edit that made each slab
-  bool is_unpublished_ = false;              // edits are applied that no event has told of
-  mutable bool is_waited_for_ = false;       // by a viewer that starts
-  mutable std::condition_variable published_;
-  std::uint64_t edits_ = 0;
-  std::uint64_t rejected_ = 0;
-  std::deque<double> latencies_;  // of the last edits
+  std::atomic<bool> is_given_up_ = false;
+
+  /// What others have been told, which is all that they can ask for.
+  struct Told {
+    ShownSlabs slabs;
+    io::StackState stack;
+    Json counts;
+    double volume = 0;
+    std::shared_ptr<const CaptureView> view;
+    std::uint64_t edits = 0;
+    std::uint64_t rejected = 0;
+    std::deque<double> latencies;  // of the last edits
+  };
+  mutable std::mutex told_mutex_;
+  Told told_;
 
   mutable std::mutex reset_mutex_;
   mutable std::optional<std::pair<std::string, std::uint64_t>> reset_;  // as reset_event()

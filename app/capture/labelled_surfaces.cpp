@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "cdt/effort.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
 #include "reconstruct/usable.h"
@@ -57,6 +58,7 @@ void LabelledSurfaces::put(const Exchange& exchange, NetChange& change) {
     try {
       change.add(i, parts_[i].label, put_into(*parts_[i].surface, exchange));
     } catch (...) {
+      const cdt::Effort without_limit;  // what was there can be made again
       for (std::size_t k = 0; k < i; ++k)
         change.add(k, parts_[k].label, put_into(*parts_[k].surface, exchange.reversed()));
       throw;

@@ -13,13 +13,12 @@ std::vector<std::string> slab_names(const std::vector<SlabKey>& slabs) {
   return names;
 }
 
-Json to_json(const SlabKey& key, const std::string& label, const SlabInfo& slab,
-             std::uint64_t edit) {
+Json to_json(const SlabKey& key, const ShownSlab& slab) {
   return {{"id", slab_name(key)},
-          {"low", slab.low},
-          {"high", slab.high},
-          {"label", label},
-          {"edit", edit}};
+          {"low", slab.info.low},
+          {"high", slab.info.high},
+          {"label", slab.label},
+          {"edit", slab.edit}};
 }
 
 void NetChange::add(std::size_t part, const std::string& label, const SurfaceChange& change) {
@@ -46,13 +45,14 @@ std::vector<SlabKey> NetChange::added() const {
 
 Json NetChange::added_as_json(std::uint64_t edit) const {
   Json all = Json::array();
-  for (const auto& [key, slab] : added_) all.push_back(to_json(key, slab.first, slab.second, edit));
+  for (const auto& [key, slab] : added_)
+    all.push_back(to_json(key, {slab.first, slab.second, edit}));
   return all;
 }
 
-void NetChange::note_births(std::uint64_t edit, std::map<SlabKey, std::uint64_t>& births) const {
-  for (const SlabKey& key : removed_) births.erase(key);
-  for (const auto& [key, slab] : added_) births[key] = edit;
+void NetChange::bring_up_to_date(std::uint64_t edit, ShownSlabs& slabs) const {
+  for (const SlabKey& key : removed_) slabs.erase(key);
+  for (const auto& [key, slab] : added_) slabs[key] = {slab.first, slab.second, edit};
 }
 
 }  // namespace loft::app

@@ -20,9 +20,15 @@ using SlabKey = std::pair<std::size_t, std::uint32_t>;
 [[nodiscard]] std::string slab_name(const SlabKey& slab);
 [[nodiscard]] std::vector<std::string> slab_names(const std::vector<SlabKey>& slabs);
 
-/// What viewers are told of a slab; `edit`: that made it.
-[[nodiscard]] Json to_json(const SlabKey& key, const std::string& label, const SlabInfo& slab,
-                           std::uint64_t edit);
+/// What viewers are told of a slab.
+struct ShownSlab {
+  std::string label;
+  SlabInfo info;
+  std::uint64_t edit = 0;  ///< that made it
+};
+using ShownSlabs = std::map<SlabKey, ShownSlab>;
+
+[[nodiscard]] Json to_json(const SlabKey& key, const ShownSlab& slab);
 
 /// Slabs that came and went in all, over several changes of surfaces: what came and went again is
 /// not in it.
@@ -41,8 +47,8 @@ class NetChange {
   /// With `edit` as the edit that made them.
   [[nodiscard]] Json added_as_json(std::uint64_t edit) const;
 
-  /// Brings the numbers of the edits that made slabs up to date.
-  void note_births(std::uint64_t edit, std::map<SlabKey, std::uint64_t>& births) const;
+  /// Brings what viewers are told up to date; `edit` made what is new.
+  void bring_up_to_date(std::uint64_t edit, ShownSlabs& slabs) const;
 
  private:
   void remove(const SlabKey& slab);

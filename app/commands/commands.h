@@ -71,6 +71,8 @@ struct StreamCommand {
   std::string host = "127.0.0.1";
   int port = 8337;
   std::size_t most_megabytes = 16;  ///< of a body
+  double most_effort = 2000;        ///< of an edit, in millions of steps
+  std::string token;                ///< for changes from beyond this machine
   bool strict = false;
   bool json = false;
   bool quiet = false;

@@ -48,6 +48,7 @@ void set(StreamCommand& command, const std::string& key, const std::string& valu
 Capture::Setup setup_of(const StreamCommand& command) {
   Capture::Setup setup;
   setup.options = command.options;
+  setup.most_effort = static_cast<std::uint64_t>(command.most_effort * 1e6);
   setup.unit = command.unit;
   setup.metres_per_unit = metres_per_unit(command.unit).value_or(0.001);
   return setup;

@@ -136,10 +136,14 @@ class Stream {
 
   void serve() {
     server_.emplace(Server::Setup{.host = command_.host,
+                                  .token = command_.token,
                                   .port = command_.port,
                                   .most_bytes = command_.most_megabytes << 20U},
                     shown_, feed_, &capture_);
     terminal_.say("listening on " + server_->url());
+    // Said even with --quiet: without it nobody could send an edit.
+    if (!server_->token().empty() && command_.token.empty())
+      std::cerr << "edits need this token: " << server_->token() << std::endl;
   }
 
   void read_input() {
@@ -267,6 +271,7 @@ class Stream {
 
   /// The outputs come first: requests that take long may hold the server up.
   ExitCode finish() {
+    if (is_interrupted()) capture_.close(milliseconds(400));
     capture_.close();
     saver_.finish();  // what it writes is older
     if (const std::string error = saver_.take_error(); !error.empty()) complain(error);

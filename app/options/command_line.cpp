@@ -3,11 +3,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <iostream>
 #include <string>
 #include <utility>
 
 #include "app/commands/out_of_core.h"
+#include "app/interrupt.h"
 #include "app/options/complaints.h"
 #include "app/options/completion.h"
 #include "app/options/help.h"
@@ -246,6 +248,15 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
                   "Largest body of a request, in MiB (default 16)")
       ->type_name("MIB")
       ->check(CLI::Range(1U, 1024U));
+  sub->add_option("--max-effort", command.most_effort,
+                  "Most that one edit may take, in millions of steps (default 2000, a minute or "
+                  "so); beyond, it is rejected")
+      ->type_name("N")
+      ->check(CLI::Range(0.001, 1e9));
+  sub->add_option("--token", command.token,
+                  "What those who send edits from beyond this machine must know (--host; drawn "
+                  "and printed where not given): Authorization: Bearer TOKEN")
+      ->type_name("TOKEN");
   add_slice_options(*sub, command.options);
   add_slab_options(*sub, command.options);
   add_address_options(*sub, command);
@@ -392,6 +403,13 @@ void look_at_options(const CLI::App& sub, StreamCommand& command) {
     throw UsageError("--host needs --port or --view: nothing would listen there");
 }
 
+/// For commands that do not look for interrupts: they are ended.
+template <class Command>
+ExitCode run_at_once(const Command& command) {
+  catch_interrupts(std::chrono::milliseconds(0));
+  return app::run(command);
+}
+
 }  // namespace
 
 CommandLine::CommandLine()
@@ -411,10 +429,10 @@ CommandLine::CommandLine()
     return app::run(stream_);
   });
   when(add_view(app_, view_), [this] { return app::run(view_); });
-  when(add_session(app_, session_), [this] { return app::run(session_); });
+  when(add_session(app_, session_), [this] { return run_at_once(session_); });
   when(add_triangulate(app_, triangulate_), [this] { return app::run(triangulate_); });
-  when(add_check(app_, check_), [this] { return app::run(check_); });
-  when(add_info(app_, info_), [this] { return app::run(info_); });
+  when(add_check(app_, check_), [this] { return run_at_once(check_); });
+  when(add_info(app_, info_), [this] { return run_at_once(info_); });
   when(add_help(app_, help_), [this] { return show_help(app_, help_); });
   when(add_completion(app_, shell_), [this] {
     std::cout << completion(tree_of(app_), shell_);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <utility>
 
 namespace loft::app {
@@ -13,14 +14,6 @@ namespace {
 
 std::string text_of(const Json& json) {
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-/// The host without its port and brackets: `127.0.0.1`, `::1`.
-std::string bare(const std::string& host) {
-  if (host.starts_with('[')) return host.substr(1, host.find(']') - 1);
-  const std::size_t colon = host.find(':');
-  const bool is_v6 = colon != host.rfind(':');
-  return is_v6 ? host : host.substr(0, colon);
 }
 
 }  // namespace
@@ -46,14 +39,36 @@ void refuse_and_close(httplib::Response& response, int status, const std::string
       });
 }
 
-bool is_loopback(const std::string& host) {
-  std::string name = bare(host);
-  std::ranges::transform(name, name.begin(), [](unsigned char c) { return std::tolower(c); });
+std::optional<HostName> parse_host(const std::string& host) {
+  HostName named;
+  const bool has_brackets = host.starts_with('[');
+  const std::size_t end = has_brackets ? host.find(']') : host.find(':');
+  named.name = host.substr(has_brackets ? 1 : 0, has_brackets ? end - 1 : end);
+  std::ranges::transform(named.name, named.name.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (named.name.empty() || (has_brackets && end == std::string::npos)) return {};
+  std::string rest = end == std::string::npos ? "" : host.substr(end + (has_brackets ? 1 : 0));
+  if (rest.empty()) return named;
+  int port = 0;
+  const char* const last = rest.data() + rest.size();
+  const auto [stop, error] = std::from_chars(rest.data() + 1, last, port);
+  if (rest[0] != ':' || error != std::errc() || stop != last || port < 1 || port > 65535) return {};
+  named.port = port;
+  return named;
+}
+
+bool is_loopback(const std::string& name) {
   if (name == "localhost" || name == "localhost.") return true;
   in_addr v4{};
   if (inet_pton(AF_INET, name.c_str(), &v4) == 1) return ntohl(v4.s_addr) >> 24U == 127;
   in6_addr v6{};
   return inet_pton(AF_INET6, name.c_str(), &v6) == 1 && IN6_IS_ADDR_LOOPBACK(&v6);
+}
+
+bool is_address(const std::string& name) {
+  in_addr v4{};
+  in6_addr v6{};
+  return inet_pton(AF_INET, name.c_str(), &v4) == 1 || inet_pton(AF_INET6, name.c_str(), &v6) == 1;
 }
 
 bool has_body(const httplib::Request& request) {

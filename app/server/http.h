@@ -6,6 +6,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 #include "app/json.h"
@@ -20,9 +21,18 @@ void refuse(httplib::Response& response, int status, const std::string& why);
 /// The same, and then the connection is closed: what is left of the request is not read.
 void refuse_and_close(httplib::Response& response, int status, const std::string& why);
 
-/// Whether a name, as a Host header or the user gives it, with or without a port, is this machine's
-/// own: `localhost` or a loopback address.
-[[nodiscard]] bool is_loopback(const std::string& host);
+/// What a Host header says: `localhost:80`, `[::1]`.
+struct HostName {
+  std::string name;  ///< without brackets
+  std::optional<int> port;
+};
+/// Nothing where it is not exactly that.
+[[nodiscard]] std::optional<HostName> parse_host(const std::string& host);
+
+/// Whether a name is this machine's own: `localhost` or a loopback address.
+[[nodiscard]] bool is_loopback(const std::string& name);
+/// Whether it is a number, not a name.
+[[nodiscard]] bool is_address(const std::string& name);
 
 /// Whether a body comes with the request: without its length its end could not be seen.
 [[nodiscard]] bool has_body(const httplib::Request& request);

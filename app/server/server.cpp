@@ -19,6 +19,7 @@
 
 #include "app/capture/surfaces.h"
 #include "app/server/assets.h"
+#include "app/server/gate.h"
 #include "app/server/http.h"
 #include "io/bytes/file.h"
 #include "io/bytes/text.h"
@@ -34,8 +35,6 @@ using httplib::Request;
 using httplib::Response;
 using std::chrono::milliseconds;
 
-/// Each viewer and each request that is being answered takes one.
-constexpr std::size_t thread_count = 48;
 constexpr int most_viewers = 32;
 
 constexpr milliseconds patience{5000};         // of a POST while the queue is full
@@ -51,9 +50,16 @@ std::optional<Number> number(std::string_view text) {
   return value;
 }
 
+std::string random_token() {
+  std::random_device random;  // of the system
+  std::string token;
+  for (int i = 0; i < 32; ++i) token += "0123456789abcdef"[random() % 16];
+  return token;
+}
+
 /// So many lines, problems of a line or repairs are answered; the others are counted.
 constexpr std::size_t most_lines = 1 << 16;
-constexpr std::size_t most_words = 100;
+constexpr std::size_t most_words = 20;
 
 /// The first of some words, and how many others there are.
 std::vector<std::string> cut(std::vector<std::string> words) {
@@ -78,22 +84,11 @@ struct Line {
 class Server::Routes {
  public:
   Routes(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
-      : setup_(setup), shown_(shown), feed_(feed), capture_(capture) {
-    http_.new_task_queue = [] { return new httplib::ThreadPool(thread_count); };
+      : setup_(setup), shown_(shown), feed_(feed), capture_(capture), http_(limits(setup)) {
     http_.set_payload_max_length(setup.most_bytes);
-    http_.set_read_timeout(10);
-    http_.set_write_timeout(5);
-    http_.set_keep_alive_timeout(2);
-    http_.set_keep_alive_max_count(100'000);
-    http_.set_tcp_nodelay(true);
     http_.set_default_headers({{"Cache-Control", "no-store"},
                                {"X-Content-Type-Options", "nosniff"},
                                {"Referrer-Policy", "no-referrer"}});
-    // Else two programs could listen on one port, and edits would go to either.
-    http_.set_socket_options([](socket_t socket) {
-      const int yes = 1;
-      setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
     http_.set_pre_routing_handler([this](const Request& request, Response& response) {
       static const std::array with_body{"POST", "PUT", "PATCH", "DELETE"};
       // A body has to be read before it is refused: else it would be taken for the next request.
@@ -113,42 +108,75 @@ class Server::Routes {
             std::rethrow_exception(thrown);
           } catch (const std::exception& error) {
             refuse(response, 500, error.what());
+          } catch (...) {
+            refuse(response, 500, "something went wrong");
           }
         });
     add_routes();
   }
 
-  [[nodiscard]] int bind() {
-    if (setup_.port == 0) return http_.bind_to_any_port(setup_.host);
-    return http_.bind_to_port(setup_.host, setup_.port) ? setup_.port : -1;
-  }
+  [[nodiscard]] int bind() { return port_ = http_.open(setup_.host, setup_.port); }
 
-  void serve() {
-    thread_ = std::thread([this] { http_.listen_after_bind(); });
-    while (!http_.is_running()) std::this_thread::sleep_for(milliseconds(1));
-  }
+  void serve() { http_.serve(); }
 
   void stop() {
     is_stopping_ = true;
-    http_.stop();
-    if (thread_.joinable()) thread_.join();
+    http_.close();
   }
 
  private:
+  [[nodiscard]] static Gate::Limits limits(const Setup& setup) {
+    Gate::Limits limits;
+    limits.request.most_body = setup.most_bytes;
+    limits.most_bytes_in = std::max(4 * setup.most_bytes, limits.most_bytes_in);
+    return limits;
+  }
+
   /// Pages of other sites can make a browser send requests here, and can name this machine as they
-  /// like.
+  /// like: only what names the address that is listened to is answered, and changes come from our
+  /// own page or from none.
   [[nodiscard]] bool admit(const Request& request, Response& response) const {
     const std::string host = request.get_header_value("Host");
-    if (is_loopback(setup_.host) && !is_loopback(host)) {
-      refuse(response, 403, "the host is not this machine; start with --host to allow others");
+    if (!is_own(host)) {
+      refuse(response, 403,
+             "the host is not this machine at port " + std::to_string(port_) +
+                 "; start with --host to allow others");
       return false;
     }
-    const std::string origin = request.get_header_value("Origin");
-    if (!origin.empty() && origin != "http://" + host && request.method != "GET") {
+    if (request.method == "GET" || request.method == "HEAD") return true;
+    const bool is_foreign =
+        request.has_header("Origin") && request.get_header_value("Origin") != "http://" + host;
+    const std::string site = request.get_header_value("Sec-Fetch-Site");
+    if (is_foreign || (!site.empty() && site != "same-origin" && site != "none")) {
       refuse(response, 403, "pages of other sites may not send edits");
       return false;
     }
-    return true;
+    if (setup_.token.empty() ||
+        is_same(request.get_header_value("Authorization"), "Bearer " + setup_.token))
+      return true;
+    response.set_header("WWW-Authenticate", "Bearer");
+    refuse(response, 401,
+           "edits need the token that was printed at the start: Authorization: "
+           "Bearer TOKEN");
+    return false;
+  }
+
+  /// Whether a Host header names this machine, or what --host says, and the port.
+  [[nodiscard]] bool is_own(const std::string& host) const {
+    const auto named = parse_host(host);
+    if (!named || named->port.value_or(80) != port_) return false;
+    if (is_loopback(named->name)) return true;
+    if (is_loopback(setup_.host)) return false;
+    // Names lead here that a page of another site has chosen; addresses do not.
+    return named->name == setup_.host || is_address(named->name);
+  }
+
+  /// In the same time wherever they differ.
+  [[nodiscard]] static bool is_same(const std::string& given, const std::string& wanted) {
+    unsigned difference = given.size() == wanted.size() ? 0 : 1;
+    for (std::size_t i = 0; i < given.size() && i < wanted.size(); ++i)
+      difference |= static_cast<unsigned char>(given[i]) ^ static_cast<unsigned char>(wanted[i]);
+    return difference == 0;
   }
 
   [[nodiscard]] static bool is_known(const std::string& path) {
@@ -306,7 +334,9 @@ class Server::Routes {
         json["latency_ms"] = given.latency_ms;
         return json;
       }
-      line.status = given.outcome == Answer::Outcome::rejected ? 422 : 507;
+      line.status = given.outcome == Answer::Outcome::rejected ? 422
+                    : given.outcome == Answer::Outcome::ended  ? 503
+                                                               : 507;
       line.error = given.error;
     }
     json["error"] = line.error;
@@ -386,7 +416,7 @@ class Server::Routes {
   /// runs into the write timeout.
   bool feed(Cursor& cursor, httplib::DataSink& sink) const {
     constexpr milliseconds step{200};
-    if (is_stopping_) return false;
+    if (is_stopping_ || !sink.is_writable()) return false;
     if (cursor.next == 0) return start(cursor, sink);
     const Feed::Reading reading = feed_.read(cursor.next, step);
     switch (reading.outcome) {
@@ -421,19 +451,23 @@ class Server::Routes {
   }
 
   Setup setup_;
+  int port_ = 0;
   Shown& shown_;
   const Feed& feed_;
   Capture* capture_;
-  httplib::Server http_;
   /// Tells events of this run from those of others.
   std::string token_ = std::to_string(std::random_device()()) + '.';
-  std::thread thread_;
   std::atomic<bool> is_stopping_ = false;
   std::atomic<int> viewers_ = 0;
+  Gate http_;  // ends before what its requests use
 };
 
-Server::Server(const Setup& setup, Shown& shown, const Feed& feed, Capture* capture)
-    : routes_(std::make_unique<Routes>(setup, shown, feed, capture)) {
+Server::Server(const Setup& wanted, Shown& shown, const Feed& feed, Capture* capture) {
+  Setup setup = wanted;
+  if (setup.token.empty() && capture != nullptr && !is_loopback(setup.host))
+    setup.token = random_token();
+  token_ = setup.token;
+  routes_ = std::make_unique<Routes>(setup, shown, feed, capture);
   errno = 0;
   const int port = routes_->bind();
   if (port < 0)

@@ -33,12 +33,18 @@ namespace loft::app {
 ///     GET /status             counts, latencies, memory
 ///     GET /                   the viewer
 ///
-/// Nothing that comes over the network names a file. Requests for another host, or from pages of
-/// another site, are refused (403) while the address is one of this machine alone.
+/// Nothing that comes over the network names a file. The `Host` of a request must be this machine
+/// (or what --host names, or an address) with the port; changes from pages of other sites
+/// (`Origin`, `Sec-Fetch-Site`) are refused: 403. Where others than this machine can reach it
+/// changes need `Authorization: Bearer TOKEN`: 401. Ranges are not served. What is too large, too
+/// slow or not clear about where it ends is refused (400, 408, 413, 414, 431) and its connection
+/// closed (gate.h).
 class Server {
  public:
   struct Setup {
     std::string host = "127.0.0.1";
+    /// Needed for changes where it is not empty; drawn where the host is not this machine alone.
+    std::string token = {};
     int port = 0;                                     ///< 0: any that is free
     std::size_t most_bytes = std::size_t{16} << 20U;  ///< of a body
   };
@@ -53,11 +59,14 @@ class Server {
 
   /// `http://127.0.0.1:8080/`
   [[nodiscard]] const std::string& url() const { return url_; }
+  /// What changes need; empty: nothing.
+  [[nodiscard]] const std::string& token() const { return token_; }
 
  private:
   class Routes;
 
   std::string url_;
+  std::string token_;
   std::unique_ptr<Routes> routes_;
 };
 

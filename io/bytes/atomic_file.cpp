@@ -7,6 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <mutex>
+#include <set>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -28,6 +30,18 @@ path folder_of(const path& file) {
 bool is_open_file(const path& file) {
   std::error_code ignored;
   return std::filesystem::canonical(folder_of(file), ignored).string().starts_with("/proc/");
+}
+
+/// The temporary files that there are, of all threads.
+struct Temporaries {
+  std::mutex mutex;
+  std::set<path> names;
+};
+
+/// Never destroyed: threads may write while the program ends.
+Temporaries& temporaries() {
+  static auto* const all = new Temporaries;
+  return *all;
 }
 
 /// Where links lead, whether there is a file or not.
@@ -121,7 +135,15 @@ void AtomicFile::forbid_replacing_protected() {
   mode_ = there.st_mode & 07777;
 }
 
+void abandon_atomic_files() {
+  Temporaries& all = temporaries();
+  all.mutex.lock();  // for good
+  std::error_code ignored;
+  for (const path& name : all.names) std::filesystem::remove(name, ignored);
+}
+
 void AtomicFile::create_temporary() {
+  const std::lock_guard lock(temporaries().mutex);
   constexpr int attempts = 1000;
   for (int number = 0; number < attempts && lock_ < 0; ++number) {
     std::string name(1, '.');
@@ -139,14 +161,17 @@ void AtomicFile::create_temporary() {
     ::close(std::exchange(lock_, -1));
     throw FileError(Access::write, path_, cause);
   }
+  temporaries().names.insert(temporary_);
   stream_.open(temporary_, std::ios::binary | std::ios::trunc);
 }
 
 AtomicFile::~AtomicFile() {
   if (lock_ < 0) return;
   stream_.close();
+  const std::lock_guard lock(temporaries().mutex);
   std::error_code ignored;
   if (!committed_) std::filesystem::remove(temporary_, ignored);
+  temporaries().names.erase(temporary_);
   ::close(lock_);
 }
 
@@ -173,9 +198,12 @@ void AtomicFile::commit() {
 void AtomicFile::put_in_place() {
   if (::fsync(lock_) != 0 && !cannot_sync(errno))
     throw FileError(Access::write, path_, last_cause());
-  if (::rename(temporary_.c_str(), target_.c_str()) != 0)
-    throw FileError(Access::write, path_, last_cause());
-  committed_ = true;
+  {
+    const std::lock_guard lock(temporaries().mutex);
+    if (::rename(temporary_.c_str(), target_.c_str()) != 0)
+      throw FileError(Access::write, path_, last_cause());
+    committed_ = true;
+  }
   sync_folder(folder_of(target_));
 }
 

@@ -46,4 +46,8 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// Removes the temporary files of all AtomicFiles; none can be made or committed any more. For who
+/// is about to end the process.
+void abandon_atomic_files();
+
 }  // namespace loft::io

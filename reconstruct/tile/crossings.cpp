@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "cdt/effort.h"
 #include "mesh/predicates.h"
 #include "mesh/vec3.h"
 #include "reconstruct/plane/tile_grid.h"
@@ -249,6 +250,7 @@ class Collapse {
   }
 
   bool collapse(std::uint32_t p) {
+    cdt::spend();
     for (const Target& target : find_targets(p)) {
       make_fan(target.at);
       if (meets_nothing(p)) {
@@ -274,6 +276,7 @@ class Collapse {
   std::vector<Target> find_targets(std::uint32_t p) {
     std::vector<Target> targets;
     if (!find_link(p)) return targets;
+    cdt::spend(link_.size() * link_.size());  // a fan for each of its nodes
     for (std::size_t i = 0; i < link_.size(); ++i) {
       if (!is_contour(link_[i]) || !keeps_topology(p, i)) continue;
       make_fan(i);
@@ -339,6 +342,7 @@ class Collapse {
     for (const Nodes& nodes : fan_) {
       const Corners corners = places(nodes);
       const bool is_free = grid_->all_of_near(footprint(nodes), [&](std::uint32_t face) {
+        cdt::spend();
         if (tests_left_ == 0) return false;
         --tests_left_;
         const Nodes& other = tiles_[face].nodes;

@@ -87,8 +87,17 @@ TEST_F(Posting, SaysWhatIsWrongWithARequest) {
   for (const char* host : {"127.example.com", "127.0.0.1.example.com:80", "[::2]", "localhost.x"})
     expect(client_->Post("/slices", {{"Host", host}}, leaning(1), "text/plain"), 403,
            "not this machine");
-  for (const char* host : {"127.0.0.1", "127.1.2.3:80", "[::1]:80", "LOCALHOST", "localhost.:80"})
-    expect(client_->Get("/status", {{"Host", host}}), 200, "");
+  const std::string port = ':' + std::to_string(running_.port());
+  for (const std::string host : {"127.0.0.1", "127.1.2.3", "[::1]", "LOCALHOST", "localhost."}) {
+    expect(client_->Get("/status", {{"Host", host + port}}), 200, "");
+    expect(client_->Get("/status", {{"Host", host}}), 403, "not this machine");
+    expect(client_->Get("/status", {{"Host", host + port + "0"}}), 403, "not this machine");
+    expect(client_->Get("/status", {{"Host", host + port + ".example.com"}}), 403, "");
+  }
+  for (const char* origin : {"null", "http://localhost:1", "https://127.0.0.1"})
+    expect(client_->Post("/slices", {{"Origin", origin}}, leaning(1), "text/plain"), 403, "sites");
+  expect(client_->Post("/slices", {{"Sec-Fetch-Site", "cross-site"}}, leaning(1), "text/plain"),
+         403, "sites");
   expect(client_->Post("/slices", {{"Origin", "http://example.com"}}, leaning(1), "text/plain"),
          403, "other sites");
   EXPECT_EQ(json::parse(client_->Get("/status")->body)["slices"], 0);
@@ -121,14 +130,14 @@ TEST_F(Posting, SaysSoMuchOfALineAndCountsTheRest) {
   const auto repaired = post("{\"z\":1,\"contours\":[" + contours + "]}");
   ASSERT_TRUE(repaired);
   const json repairs = json::parse(repaired->body)["results"][0]["repairs"];
-  ASSERT_EQ(repairs.size(), 101U);
-  EXPECT_EQ(repairs.back(), "and 900 more");
+  ASSERT_EQ(repairs.size(), 21U);
+  EXPECT_EQ(repairs.back(), "and 980 more");
   std::string points = "[1,null]";
   for (int i = 0; i < 999; ++i) points += ",[1,null]";
   const auto refused = post("{\"z\":1,\"contours\":[[" + points + "]]}");
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->status, 400);
-  EXPECT_THAT(refused->body, HasSubstr("and 900 more"));
+  EXPECT_THAT(refused->body, HasSubstr("and 980 more"));
 }
 
 TEST_F(Posting, TakesABodyWithAByteOrderMark) {
