@@ -120,8 +120,7 @@ void SessionDatabase::open_to_read() {
 /// Before SQLite opens it: closing the file would let go of SQLite's locks.
 void SessionDatabase::look_at_header() {
   const SessionHeader header(file_);
-  if (!header.is_of_session()) return;
-  const bool is_damaged = header.is_damaged();
+  const bool is_damaged = header.is_of_session() && header.is_damaged();
   std::error_code ignored;
   const bool is_log_missing = !is_damaged && header.needs_log() &&
                               !std::filesystem::exists(file_.string() + "-wal", ignored);

@@ -94,14 +94,16 @@ bool SessionHeader::is_damaged() const {
     if (std::string_view(bytes_).substr(place, bytes.size()) != bytes) return true;
   if (!is_version(bytes_[write_version]) || bytes_[read_version] != bytes_[write_version])
     return true;
-  // Newer ones are counted up one by one.
-  if (number(user_version) == 0 || number(user_version) > 0xff) return true;
+  // A newer one is the next; no flipped bit makes that of this one.
+  if (number(user_version) == 0 || number(user_version) > 2) return true;
   const bool is_counted = number(change_counter) == number(valid_for);
   return !needs_log() && is_counted && number(page_count) < size_ / page_size;
 }
 
 bool SessionHeader::needs_log() const {
-  return is_session_ && bytes_[write_version] == 2 && bytes_[read_version] == 2;
+  // A new one has its schema in the log, and nothing but the header here.
+  const bool may_be = is_session_ || (!bytes_.empty() && size_ <= page_size);
+  return may_be && bytes_[write_version] == 2 && bytes_[read_version] == 2;
 }
 
 std::string SessionHeader::mended() const {

@@ -142,7 +142,7 @@ TEST(Doors, ExtremesThatAreAdmittedMakeValidSurfaces) {
       prism(-large, large, {-large, -large}, large),
       prism(0, small, {0, 0}, small),
       prism(small, 3 * small, {small, -small}, 2 * small),
-      prism(0, small, {-large / 2, 0}, large),
+      prism(0, small, {-1, -1}, 2),
       prism(-large, large, {small, small}, small),
       {{0, {{{{-large, -large}, {large, -large}, {large, large}}, ""}}},
        {small, {{{{-large, large}, {large, -large}, {0, small}}, ""}}}}};
