@@ -230,7 +230,7 @@ const char* name(Fault fault) {
   return "unknown";
 }
 
-std::size_t most_intersections(const Mesh& mesh) { return 1000 + 4 * mesh.faces.size(); }
+std::size_t most_intersections(const Mesh& mesh) { return 100'000 + 4 * mesh.faces.size(); }
 
 std::vector<Finding> check(const Mesh& mesh) {
   Findings findings;
