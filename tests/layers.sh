@@ -117,7 +117,7 @@ offenders=$(
 
   # The world outside: standard headers (neither slash nor dot in their names), and what a layer is
   # there to hide.
-  posix='(arpa|netinet|sys)/.*|(fcntl|poll|unistd)\.h'
+  posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
   allow 'cdt mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
   allow io "$posix|tiny_gltf\.h|sqlite3\.h"
