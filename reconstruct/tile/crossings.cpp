@@ -52,7 +52,7 @@ constexpr std::size_t least_tests = 100'000;
 
 /// And triangles looked at for what they would change. Smooth shapes take some 100 a crossing;
 /// beyond that, crossings are not looked at anew where those beside them went.
-constexpr std::size_t most_looks = 5000;
+constexpr std::size_t most_looks = 2000;
 constexpr std::size_t least_looks = 1'000'000;
 
 /// A collapse may make room for another: that often all are tried.
@@ -278,7 +278,9 @@ class Collapse {
     if (!find_link(p)) return targets;
     cdt::spend(link_.size() * link_.size());  // a fan for each of its nodes
     for (std::size_t i = 0; i < link_.size(); ++i) {
-      if (!is_contour(link_[i]) || !keeps_topology(p, i)) continue;
+      if (!is_contour(link_[i])) continue;
+      looks_left_ -= std::min(looks_left_, faces_at(link_[i]).size());
+      if (!keeps_topology(p, i)) continue;
       make_fan(i);
       looks_left_ -= std::min(looks_left_, fan_.size());
       if (const auto merit = this->merit(p)) targets.push_back({*merit, i});

@@ -113,6 +113,9 @@ bool Slab::is_lower(cdt::EdgeId e, double height) const {
   const cdt::Point b = overlay_.point(overlay_.to(e));
   const cdt::Point c = overlay_.point(overlay_.apex(e));
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  const double widest = std::max(
+      {std::abs(b.x - a.x), std::abs(b.y - a.y), std::abs(c.x - a.x), std::abs(c.y - a.y)});
+  if (area >= 3 * height * widest) return false;  // no side is longer
   const double longest =
       std::max({std::hypot(b.x - a.x, b.y - a.y), std::hypot(c.x - b.x, c.y - b.y),
                 std::hypot(a.x - c.x, a.y - c.y)});
