@@ -24,7 +24,7 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t post_threads = 24;
-constexpr std::size_t read_threads = 8;
+constexpr std::size_t read_threads = 4;  // each may make a whole surface
 constexpr std::size_t viewer_threads = 40;
 constexpr std::size_t most_ahead = std::size_t{256} << 10U;  // of a stream, before its reader
 constexpr std::size_t own_bytes = std::size_t{64} << 10U;    // of each connection, not shared
@@ -393,7 +393,14 @@ void Gate::finish_answered() {
     answered.swap(answered_);
   }
   for (const Shared& connection : answered) {
+    if (!connection->is_dropped) flush(connection);
     if (connection->is_dropped) continue;
+    if (connection->is_kept && has_output(*connection)) {
+      // Who does not take an answer gets no other one.
+      const std::lock_guard lock(answered_mutex_);
+      answered_.push_back(connection);
+      continue;
+    }
     connection->begin = Clock::now();
     connection->body_begin.reset();
     connection->phase =

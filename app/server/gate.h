@@ -33,7 +33,7 @@ class Gate : public httplib::Server {
     RequestLimits request = {};
     std::size_t most_connections = 512;
     std::size_t most_bytes_in = std::size_t{64} << 20U;
-    std::size_t most_bytes_out = std::size_t{64} << 20U;
+    std::size_t most_bytes_out = std::size_t{32} << 20U;
     std::chrono::milliseconds head_patience{10'000};
     std::chrono::milliseconds body_patience{60'000};
     std::chrono::milliseconds idle_patience{30'000};

@@ -91,7 +91,9 @@ RequestReader::State RequestReader::read_head() {
   const std::size_t from = scanned_ < 3 ? 0 : scanned_ - 3;
   const std::size_t end = pending_.find("\r\n\r\n", from);
   scanned_ = pending_.size();
-  if (std::min(end, pending_.size()) > limits_.most_head)
+  // Of what has no end yet, a part of the end may be there already.
+  const std::size_t least = pending_.size() < 3 ? 0 : pending_.size() - 3;
+  if ((end == std::string::npos ? least : end) > limits_.most_head)
     return refuse(431, "the head of the request is too long");
   if (end == std::string::npos) {
     const auto lines = static_cast<std::size_t>(std::ranges::count(pending_, '\n'));
@@ -218,7 +220,8 @@ RequestReader::State RequestReader::read_chunks() {
       chunk_ = Chunk::data_end;
     }
     const std::size_t end = pending_.find(line_end, place);
-    if (std::min(end, pending_.size()) - place > longest_chunk_line)
+    const bool has_end = end != std::string::npos;
+    if ((has_end ? end : pending_.size()) - place > longest_chunk_line + (has_end ? 0 : 1))
       return refuse(400, "a line between chunks is too long");
     if (end == std::string::npos) break;
     const std::string line = pending_.substr(place, end - place);

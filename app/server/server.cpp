@@ -173,9 +173,9 @@ class Server::Routes {
 
   /// In the same time wherever they differ.
   [[nodiscard]] static bool is_same(const std::string& given, const std::string& wanted) {
-    unsigned difference = given.size() == wanted.size() ? 0 : 1;
+    std::size_t difference = given.size() == wanted.size() ? 0 : 1;
     for (std::size_t i = 0; i < given.size() && i < wanted.size(); ++i)
-      difference |= static_cast<unsigned char>(given[i]) ^ static_cast<unsigned char>(wanted[i]);
+      if (given[i] != wanted[i]) ++difference;
     return difference == 0;
   }
 

@@ -32,7 +32,12 @@ class LineReader {
   }
 
  private:
-  void complain(const std::string& problem) { line_.problems.push_back(problem); }
+  /// A line can be wrong in as many places as it has bytes: the first ones are told.
+  void complain(const std::string& problem) {
+    constexpr std::size_t most = 10'000;
+    if (line_.problems.size() < most) line_.problems.push_back(problem);
+    if (line_.problems.size() == most) line_.problems.back() = "and more that is not listed";
+  }
 
   /// Leaves out the value that comes next and says what should have been there.
   void reject(const std::string& place, const std::string& wanted) {
