@@ -34,8 +34,8 @@ namespace admitted {
 inline constexpr Range planar{cdt::Triangulation::smallest_coordinate,
                               cdt::Triangulation::largest_coordinate};
 /// x, y and z of slices; lengths and distances in options (not negative).
-inline constexpr Range slice{1e-30, 1e70};
-inline constexpr Range length = slice;
+inline constexpr Range slice{1e-34, 1e70};
+inline constexpr Range length{1e-30, 1e70};
 /// x, y and z of a mesh that is checked: products of three differences.
 inline constexpr Range mesh{1e-90, 1e90};
 /// Metres a unit (positive): from far below an atom to far beyond what is seen of the sky.

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "reconstruct/tile/slab.h"
-#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 
@@ -18,7 +17,8 @@ constexpr std::uint32_t none = Origin::none;
 
 class PartFinder {
  public:
-  explicit PartFinder(const Slab& slab) : slab_(slab), mesh_(slab.overlay()) {}
+  PartFinder(const Region& lower, const Region& upper)
+      : slab_(lower, upper), mesh_(slab_.overlay()) {}
 
   PartGraph run() {
     PartGraph graph;
@@ -80,7 +80,7 @@ class PartFinder {
     }
   }
 
-  const Slab& slab_;
+  Slab slab_;
   const Triangulation& mesh_;
   std::vector<std::uint32_t> label_;  // the part of each triangle, or none
 };
@@ -88,12 +88,7 @@ class PartFinder {
 }  // namespace
 
 PartGraph find_parts(const Region& lower, const Region& upper) {
-  const Slab slab(lower, upper);
-  const double contact = loft::contact(lower, upper);
-  if (slab.has_near_contact(contact))
-    if (const auto merged = Slab::merged(lower, upper, {}, contact))
-      return PartFinder(*merged).run();
-  return PartFinder(slab).run();
+  return PartFinder(lower, upper).run();
 }
 
 }  // namespace loft

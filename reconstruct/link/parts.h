@@ -9,8 +9,7 @@
 namespace loft {
 
 /// The parts of a slab's two regions (connected components: an outer loop and the holes in it), and
-/// which of one slice overlap which of the other. Contours within contact() of each other are taken
-/// to meet: that is no overlap.
+/// which of one slice overlap which of the other.
 struct PartGraph {
   struct Overlap {
     std::uint32_t lower;

@@ -22,34 +22,6 @@ Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift, cdt::Tria
   refresh();
 }
 
-/// Where two things are near each other, there is a triangle between them that is no higher.
-bool Slab::has_near_contact(double contact) const {
-  for (std::uint32_t t = 0; t < overlay_.triangle_bound(); ++t) {
-    const cdt::TriangleId triangle(t);
-    if (overlay_.is_triangle(triangle) && is_lower(cdt::Triangulation::edge(triangle), contact))
-      return true;
-  }
-  return false;
-}
-
-std::optional<Slab> Slab::merged(const Region& lower, const Region& upper, cdt::Point shift,
-                                 double contact) {
-  Slab slab(lower, upper, shift, cdt::Triangulation(contact));
-  if (!slab.keeps_vertices(Level::lower) || !slab.keeps_vertices(Level::upper)) return {};
-  return slab;
-}
-
-/// Whether each contour vertex of a slice is an overlay vertex of its own.
-bool Slab::keeps_vertices(Level level) const {
-  const auto& loop_vertices = region(level).loop_vertices;
-  const std::size_t first = level == Level::lower ? 0 : lower_.loop_vertices.size();
-  for (std::size_t i = 0; i < loop_vertices.size(); ++i) {
-    const auto& segment = overlay_.segment(cdt::SegmentId(static_cast<std::uint32_t>(first + i)));
-    if (segment.from == segment.to || index(segment.from, level) != loop_vertices[i]) return false;
-  }
-  return true;
-}
-
 Vec3 Slab::place(cdt::VertexId v, double z) const {
   const double share = (z - lower_.z) / height();
   const cdt::Point p = overlay_.point(v);
@@ -113,9 +85,6 @@ bool Slab::is_lower(cdt::EdgeId e, double height) const {
   const cdt::Point b = overlay_.point(overlay_.to(e));
   const cdt::Point c = overlay_.point(overlay_.apex(e));
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  const double widest = std::max(
-      {std::abs(b.x - a.x), std::abs(b.y - a.y), std::abs(c.x - a.x), std::abs(c.y - a.y)});
-  if (area >= 3 * height * widest) return false;  // no side is longer
   const double longest =
       std::max({std::hypot(b.x - a.x, b.y - a.y), std::hypot(c.x - b.x, c.y - b.y),
                 std::hypot(a.x - c.x, a.y - c.y)});

@@ -133,7 +133,7 @@ TEST(Loft, RefusesLengthsThatMakeNoSense) {
     EXPECT_FALSE(std::filesystem::exists(folder / "a.ply")) << options;
   }
   EXPECT_NE(run(folder, "reconstruct in.ndjson -o a.ply --max-edge 0")
-                .err.find("give a number above 0, in the unit of the input"),
+                .err.find("give a number from 1e-30 to 1e70, in the unit of the input"),
             std::string::npos);
   EXPECT_EQ(run(folder, "reconstruct in.ndjson -o a.ply --max-edge 1e-9").exit_code, 3);
 }
