@@ -32,7 +32,8 @@ void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptio
 /// others one mesh in metres, since there a node need not be a solid.
 /// Throws FileError, and InputError that names the file. Not read: sparse, compressed or quantised
 /// positions (an error says so), points and lines (left out). Bounded, as gltf_load.h says: what is
-/// nested, which files are opened (those of buffers, in the same folder), what repeated meshes make.
+/// nested, which files are opened (those of buffers, in the same folder), what repeated meshes
+/// make.
 [[nodiscard]] std::vector<LabelledMesh> read_gltf(const std::filesystem::path& path);
 
 /// The same from the file's content; files beside it are in `folder`.

@@ -212,7 +212,7 @@ class Author {
 }  // namespace
 
 const char* name_of(Ground ground) {
-  constexpr const char* names[] = {"8x8 grid",     "4x4 grid",        "decimals",
+  constexpr const char* names[] = {"8x8 grid",      "4x4 grid",        "decimals",
                                    "near-parallel", "far from origin", "nearly equal",
                                    "beside lines",  "near zero",       "flush"};
   return names[static_cast<std::size_t>(ground)];

@@ -145,8 +145,7 @@ TEST(Doors, ExtremesThatAreAdmittedMakeValidSurfaces) {
       prism(0, small, {-1, -1}, 2),
       prism(-large, large, {small, small}, small),
       // Crossings of far larger sides may be nearer to 0 than check() can hold.
-      {{0, {{{{-1, -1}, {1, -1}, {1, 1}}, ""}}},
-       {small, {{{{-1, 1}, {1, -1}, {0, small}}, ""}}}}};
+      {{0, {{{{-1, -1}, {1, -1}, {1, 1}}, ""}}}, {small, {{{{-1, 1}, {1, -1}, {0, small}}, ""}}}}};
   for (std::size_t i = 0; i < stacks.size(); ++i) {
     for (const LinkRule link : {LinkRule::automatic, LinkRule::overlap, LinkRule::none}) {
       for (const Cap cap : {Cap::flat, Cap::dome}) {
