@@ -45,11 +45,14 @@ std::vector<Verdict> judge(const std::vector<io::LabelledMesh>& meshes) {
 
 /// ` faces 3 7 vertices 1 2`, of one finding.
 std::string where(const Finding& finding) {
+  constexpr std::size_t shown = 8;  // an edge may have thousands of faces
   std::string text;
-  const auto add = [&text](const char* what, const std::vector<std::uint32_t>& numbers) {
+  const auto add = [&](const char* what, const std::vector<std::uint32_t>& numbers) {
     if (numbers.empty()) return;
     text += what;
-    for (const std::uint32_t number : numbers) text += ' ' + std::to_string(number);
+    for (std::size_t i = 0; i < std::min(shown, numbers.size()); ++i)
+      text += ' ' + std::to_string(numbers[i]);
+    if (numbers.size() > shown) text += " and " + grouped(numbers.size() - shown) + " more";
   };
   add(" faces", finding.faces);
   add(" vertices", finding.vertices);

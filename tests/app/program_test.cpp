@@ -303,6 +303,16 @@ TEST(Loft, SumsUpTheCleaning) {
   EXPECT_EQ(report["slices"][1]["area"], 1);
 }
 
+TEST(Loft, CheckNamesTheFirstFacesOfACrowdedEdge) {
+  const Folder folder;
+  std::string mesh = "OFF\n3 500 0\n0 0 0\n1 0 0\n0 1 0\n";
+  for (int i = 0; i < 500; ++i) mesh += "3 0 1 2\n";
+  static_cast<void>(folder.write("in.off", mesh));
+  const Outcome checked = run(folder, "check in.off");
+  EXPECT_EQ(checked.exit_code, 1);
+  EXPECT_NE(checked.out.find("faces 0 1 2 3 4 5 6 7 and 492 more"), std::string::npos);
+}
+
 TEST(Loft, ShowsWhatIsInAStack) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", labelled + "\n" + slice(4, "")));
