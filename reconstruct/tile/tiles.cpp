@@ -121,16 +121,13 @@ class Tiling {
   }
 
   /// Triangulates polygon_, counter-clockwise as seen from outside, over the line from -> to. How
-  /// does not depend on the line's direction: it is seen from the same side, turned or not; and as
-  /// wide as high, so that it depends neither on the slab's height nor on where the line leads.
+  /// does not depend on the line's direction: it is seen from the same side, turned or not.
   void fill_upright(const Vec3& from, const Vec3& to) {
     const unsigned axis = std::abs(to[0] - from[0]) >= std::abs(to[1] - from[1]) ? 0 : 1;
-    const auto [low, high] = std::minmax(from[axis], to[axis]);
-    const double bottom = slab_.lower().z;
     flat_.clear();
     for (const std::uint32_t node : polygon_) {
       const Vec3 p = place(node);
-      flat_.push_back({(p[axis] - low) / (high - low), (p[2] - bottom) / slab_.height()});
+      flat_.push_back({p[axis], p[2]});
     }
     const std::size_t count = tiles_.tiles.size();
     if (polygon_.size() > 3) fill_polygon(to[axis] < from[axis]);
