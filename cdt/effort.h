@@ -25,15 +25,15 @@ class Effort {
 
   /// Ends, too, once `stop` is true; it is looked at now and then.
   explicit Effort(std::uint64_t most = unlimited, const std::atomic<bool>* stop = nullptr)
-      : left_(most), stop_(stop), outer_(current_) {
-    current_ = this;
+      : left_(most), stop_(stop), outer_(current) {
+    current = this;
   }
-  ~Effort() { current_ = outer_; }
+  ~Effort() { current = outer_; }
   Effort(const Effort&) = delete;
   Effort& operator=(const Effort&) = delete;
 
   static void spend(std::uint64_t steps) {
-    if (current_ != nullptr) current_->take(steps);
+    if (current != nullptr) current->take(steps);
   }
 
  private:
@@ -49,7 +49,7 @@ class Effort {
   Effort* outer_;
   std::uint32_t calls_ = 0;
 
-  static inline thread_local Effort* current_ = nullptr;
+  static inline thread_local Effort* current = nullptr;
 };
 
 /// Counts steps of the calling thread. Throws TooMuchEffort where they are too many.
