@@ -58,4 +58,11 @@ class Raw {
   bool is_open_ = false;
 };
 
+/// AddressSanitizer keeps what is freed for a while, and shadows all of it.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr double memory_factor = 8;
+#else
+inline constexpr double memory_factor = 1;
+#endif
+
 }  // namespace loft::app::testing
