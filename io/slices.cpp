@@ -61,9 +61,10 @@ std::vector<Slice> read_slices(const std::filesystem::path& path, unsigned threa
   return format->read(file, path.string(), threads);
 }
 
-std::vector<std::string> labels_of(std::span<const std::filesystem::path> paths) {
+std::vector<std::string> labels_of(std::span<const std::filesystem::path> paths,
+                                   Unlabelled unlabelled) {
   std::vector<std::string> labels(paths.size());
-  if (paths.size() < 2) return labels;
+  if (paths.size() < 2 || unlabelled == Unlabelled::keep) return labels;
   for (std::size_t i = 0; i < paths.size(); ++i) {
     const auto is_alike = [&](const auto& path) { return path.stem() == paths[i].stem(); };
     labels[i] = (std::ranges::count_if(paths, is_alike) == 1 ? paths[i].stem() : paths[i]).string();
@@ -78,8 +79,7 @@ void label_unlabelled(Slice& slice, const std::string& label) {
 
 std::vector<Slice> read_slices(std::span<const std::filesystem::path> paths, unsigned threads,
                                Unlabelled unlabelled) {
-  const std::vector<std::string> labels =
-      unlabelled == Unlabelled::keep ? std::vector<std::string>(paths.size()) : labels_of(paths);
+  const std::vector<std::string> labels = labels_of(paths, unlabelled);
   std::vector<Slice> slices;
   std::string problems;
   for (std::size_t i = 0; i < paths.size(); ++i) {

@@ -32,8 +32,10 @@ enum class Unlabelled {
                                              Unlabelled unlabelled = Unlabelled::keep);
 
 /// For each file the label that its contours without one take: its name without extension, or,
-/// where two files share that, its whole path. Empty where there is one file only.
-[[nodiscard]] std::vector<std::string> labels_of(std::span<const std::filesystem::path> paths);
+/// where two files share that, its whole path. Empty where there is one file only, or they are
+/// kept.
+[[nodiscard]] std::vector<std::string> labels_of(std::span<const std::filesystem::path> paths,
+                                                 Unlabelled unlabelled);
 
 /// Gives the contours of a slice that have no label that one.
 void label_unlabelled(Slice& slice, const std::string& label);

@@ -35,9 +35,7 @@ std::uint64_t size_of(const std::filesystem::path& path) {
 
 StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned threads,
                      const Visit& visit, Unlabelled unlabelled)
-    : paths_(paths.begin(), paths.end()),
-      labels_(unlabelled == Unlabelled::keep ? std::vector<std::string>(paths.size())
-                                             : labels_of(paths)) {
+    : paths_(paths.begin(), paths.end()), labels_(labels_of(paths, unlabelled)) {
   std::uint64_t total = 0;
   for (const auto& path : paths_) total += size_of(path);
   std::uint64_t before = 0;

@@ -9,6 +9,7 @@
 
 #include "app/exit_code.h"
 #include "io/planar/svg.h"
+#include "io/slices.h"
 #include "reconstruct/options.h"
 
 namespace loft::app {
@@ -24,7 +25,7 @@ struct ReconstructCommand {
   std::optional<std::filesystem::path> links;  ///< file of link orders
   std::string unit = "mm";
   Memory memory = Memory::by_size;
-  bool merges = false;  ///< several files are one stack
+  io::Unlabelled unlabelled = io::Unlabelled::label_by_file;
   bool strict = false;  ///< a label that cannot be made is a failure
   bool json = false;
   bool slabs = false;  ///< in the report, too

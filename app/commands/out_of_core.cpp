@@ -103,7 +103,7 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
         terminal.show_progress("read", share_of_reading * share);
         if (is_interrupted()) throw Cancelled();
       },
-      command.merges ? io::Unlabelled::keep : io::Unlabelled::label_by_file);
+      command.unlabelled);
   if (!overview.unusable().empty())
     throw InputError(
         with_place(InputError(overview.unusable()).what(), place_of(command, Options())));
@@ -116,7 +116,7 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
   LabelProblems problems(command);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;
-    options.reports_slabs = command.json;
+    options.reports_slabs = command.json && command.slabs;
     if (is_labelled) options.label = names[i];
     const auto follow = [&](Stage stage, double fraction) {
       const double done = (static_cast<double>(i) + fraction) / static_cast<double>(names.size());

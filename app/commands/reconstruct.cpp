@@ -185,8 +185,7 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
 void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
   const std::vector<Slice> stack =
-      io::read_slices(command.inputs, command.options.threads,
-                      command.merges ? io::Unlabelled::keep : io::Unlabelled::label_by_file);
+      io::read_slices(command.inputs, command.options.threads, command.unlabelled);
   report.input = size_of(stack);
   report.input.slices = stack.size();
   report.seconds["read"] = stopwatch.lap();

@@ -179,9 +179,10 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "(default 1e-4; 0: only equal ones)")
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.1));
-  sub->add_flag("--merge", command.merges,
-                "Several files are one stack; otherwise contours without a label take the name of "
-                "their file");
+  sub->add_flag_callback(
+      "--merge", [&command] { command.unlabelled = io::Unlabelled::keep; },
+      "Several files are one stack; otherwise contours without a label take the name of "
+      "their file");
   sub->add_flag("--strict", command.strict,
                 "Exit with 3 if no surface could be made of a label (the others are written)");
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
