@@ -33,7 +33,7 @@ TEST(BoxTree, FindsThePairsThatMeetEachOnce) {
   constexpr unsigned seed = 20;
   SCOPED_TRACE(seed);
   std::mt19937 random(seed);
-  for (const std::size_t count : {0, 1, 4, 5, 60, 300}) {
+  for (const std::size_t count : {0U, 1U, 4U, 5U, 60U, 300U}) {
     const auto boxes = random_boxes(random, count);
     Pairs expected;
     for (std::uint32_t i = 0; i < count; ++i)
