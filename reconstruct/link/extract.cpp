@@ -35,16 +35,18 @@ TileSet embedded(TileSet tiles, const Extract& lower, const Extract& upper,
                  std::uint32_t lower_count, std::uint32_t upper_count, bool is_solid) {
   const auto part_lower = static_cast<std::uint32_t>(lower.region().points.size());
   const auto part_upper = static_cast<std::uint32_t>(upper.region().points.size());
-  for (Tile& tile : tiles.tiles) {
-    for (std::uint32_t& node : tile.nodes) {
-      if (node < part_lower) {
-        node = lower.original(node);
-      } else if (node < part_lower + part_upper) {
-        node = lower_count + upper.original(node - part_lower);
-      } else {
-        node = node - part_lower - part_upper + lower_count + upper_count;
-      }
+  const auto renumber = [&](std::uint32_t& node) {
+    if (node < part_lower) {
+      node = lower.original(node);
+    } else if (node < part_lower + part_upper) {
+      node = lower_count + upper.original(node - part_lower);
+    } else {
+      node = node - part_lower - part_upper + lower_count + upper_count;
     }
+  };
+  for (Reach& reach : tiles.reaches) renumber(reach.node);
+  for (Tile& tile : tiles.tiles) {
+    std::ranges::for_each(tile.nodes, renumber);
     if (!is_solid) std::swap(tile.nodes[0], tile.nodes[1]);
   }
   return tiles;

@@ -27,6 +27,7 @@ Box3 box(const Corners& corners) { return box_around(corners[0], corners[1], cor
 void append(TileSet& tiles, const TileSet& more, std::uint32_t contour_count) {
   const auto inner_count = static_cast<std::uint32_t>(tiles.inner.size());
   tiles.inner.insert(tiles.inner.end(), more.inner.begin(), more.inner.end());
+  tiles.reaches.insert(tiles.reaches.end(), more.reaches.begin(), more.reaches.end());
   for (Tile tile : more.tiles) {
     for (std::uint32_t& node : tile.nodes)
       if (node >= contour_count) node += inner_count;

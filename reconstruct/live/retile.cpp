@@ -22,6 +22,16 @@ bool is_same_loop(const Region& a, std::uint32_t i, const Region& b, std::uint32
   return std::ranges::equal(a.loop(i), b.loop(j), is_same_vertex);
 }
 
+bool boxes_meet(const cdt::Box& a, const cdt::Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
+void add(cdt::Box& box, const cdt::Box& other) {
+  if (other.is_empty()) return;
+  box.add(other.low);
+  box.add(other.high);
+}
+
 class Retiling {
  public:
   Retiling(const SlabChange& change, const Options& options, TileWorkspace& workspace)
@@ -91,24 +101,64 @@ class Retiling {
       if (change_.old_loops[i] == none) add(new_slice(), i);
   }
 
-  [[nodiscard]] bool is_in_box(const Tile& tile) const {
-    cdt::Box box;
-    for (const std::uint32_t node : tile.nodes) {
-      const Vec3 p = place_of(change_.old_lower, change_.old_upper, change_.old_tiles.inner, node);
-      box.add({p[0], p[1]});
+  [[nodiscard]] cdt::Box old_footprint(const Tile& tile) const {
+    return footprint(
+        {old_place(tile.nodes[0]), old_place(tile.nodes[1]), old_place(tile.nodes[2])});
+  }
+  [[nodiscard]] Vec3 old_place(std::uint32_t node) const {
+    return place_of(change_.old_lower, change_.old_upper, change_.old_tiles.inner, node);
+  }
+
+  [[nodiscard]] bool is_concerned(const Reach& reach) const {
+    return is_concerned_[old_piece_of_[reach.node]];
+  }
+
+  /// The pieces that have tiles in the one box, or that reach into the other one, are concerned,
+  /// too. Whether there were any more.
+  bool add_pieces(const cdt::Box& tiles_in, const cdt::Box& reaches_in) {
+    const std::vector<std::uint32_t>& of_tile = change_.old_pieces.of_tile;
+    bool is_new = false;
+    for (std::size_t t = 0; t < of_tile.size(); ++t) {
+      if (is_concerned_[of_tile[t]]) continue;
+      if (!boxes_meet(old_footprint(change_.old_tiles.tiles[t]), tiles_in)) continue;
+      is_concerned_[of_tile[t]] = is_new = true;
     }
-    return box.low.x <= box_.high.x && box_.low.x <= box.high.x && box.low.y <= box_.high.y &&
-           box_.low.y <= box.high.y;
+    for (const Reach& reach : change_.old_tiles.reaches) {
+      if (is_concerned(reach) || !boxes_meet(reach.box, reaches_in)) continue;
+      is_concerned_[old_piece_of_[reach.node]] = is_new = true;
+    }
+    return is_new;
+  }
+
+  /// The pieces that those concerned so far may have decided, or were decided by.
+  bool spread() {
+    cdt::Box reaches;
+    for (const Reach& reach : change_.old_tiles.reaches)
+      if (is_concerned(reach)) add(reaches, reach.box);
+    cdt::Box tiles = reaches;
+    for (std::size_t t = 0; t < change_.old_tiles.tiles.size(); ++t)
+      if (is_concerned_[change_.old_pieces.of_tile[t]])
+        add(tiles, old_footprint(change_.old_tiles.tiles[t]));
+    return add_pieces(reaches, tiles);
+  }
+
+  void note_old_pieces() {
+    old_piece_of_.assign(change_.old_lower.points.size() + change_.old_upper.points.size(), none);
+    for (std::size_t t = 0; t < change_.old_tiles.tiles.size(); ++t)
+      for (const std::uint32_t node : change_.old_tiles.tiles[t].nodes)
+        if (node < old_piece_of_.size()) old_piece_of_[node] = change_.old_pieces.of_tile[t];
   }
 
   /// False if they cannot be tiled together.
   bool find_pieces_concerned() {
     const Pieces& pieces = change_.old_pieces;
     is_concerned_.assign(pieces.pieces.size(), false);
+    note_old_pieces();
     if (box_.is_empty()) return true;
-    for (std::size_t t = 0; t < change_.old_tiles.tiles.size(); ++t)
-      if (!is_concerned_[pieces.of_tile[t]] && is_in_box(change_.old_tiles.tiles[t]))
-        is_concerned_[pieces.of_tile[t]] = true;
+    add_pieces(box_, box_);
+    if (!change_.old_tiles.reaches.empty())
+      while (spread()) {
+      }
     std::optional<bool> is_solid;
     for (std::size_t i = 0; i < is_concerned_.size(); ++i) {
       if (!is_concerned_[i]) continue;
@@ -160,6 +210,11 @@ class Retiling {
       for (std::uint32_t& node : tile.nodes) node = renumbered(node);
       result_.tiles.tiles.push_back(tile);
     }
+    for (Reach reach : change_.old_tiles.reaches) {
+      if (is_concerned(reach)) continue;
+      reach.node = renumbered(reach.node);
+      result_.tiles.reaches.push_back(reach);
+    }
   }
 
   /// The loops that the pieces concerned have, or had, in one of the slices; and new ones there.
@@ -182,13 +237,33 @@ class Retiling {
   bool make_tiles() {
     const Extract lower(change_.lower, loops(Level::lower), is_solid_);
     const Extract upper(change_.upper, loops(Level::upper), is_solid_);
-    auto tiles =
-        tile_plain(lower.region(), upper.region(), doubt(change_.lower, change_.upper), workspace_);
+    auto tiles = tile_plain(lower.region(), upper.region(), doubt(change_.lower, change_.upper),
+                            is_solid_, workspace_);
     if (!tiles) return false;
     tiles = embedded(std::move(*tiles), lower, upper, lower_count(),
                      contour_count() - lower_count(), is_solid_);
+    if (!keeps_clear(*tiles)) return false;
     append(result_.tiles, *tiles, contour_count());
     return has_all_contours();
+  }
+
+  /// Whether the new tiles and those that are kept are out of each other's reach.
+  [[nodiscard]] bool keeps_clear(const TileSet& made) const {
+    cdt::Box reaches;
+    for (const Reach& reach : made.reaches) add(reaches, reach.box);
+    cdt::Box tiles = reaches;
+    for (const Tile& tile : made.tiles) add(tiles, new_footprint(made, tile));
+    return std::ranges::none_of(result_.tiles.reaches,
+                                [&](const Reach& kept) { return boxes_meet(kept.box, tiles); }) &&
+           std::ranges::none_of(result_.tiles.tiles, [&](const Tile& kept) {
+             return boxes_meet(new_footprint(result_.tiles, kept), reaches);
+           });
+  }
+  [[nodiscard]] cdt::Box new_footprint(const TileSet& tiles, const Tile& tile) const {
+    const auto place = [&](std::uint32_t node) {
+      return place_of(change_.lower, change_.upper, tiles.inner, node);
+    };
+    return footprint({place(tile.nodes[0]), place(tile.nodes[1]), place(tile.nodes[2])});
   }
 
   /// Each contour edge has one tile, or the loops did not fit together.
@@ -209,11 +284,12 @@ class Retiling {
   TileWorkspace& workspace_;
   Retiled result_;
   cdt::Box box_;
-  std::vector<std::uint32_t> new_points_;  // of each point of the old slice, or none
-  std::vector<std::uint32_t> new_loops_;   // of each loop of it
-  std::vector<std::uint32_t> new_inner_;   // of each old inner vertex
-  std::vector<bool> is_concerned_;         // of each old piece
-  bool is_solid_ = true;                   // those concerned are
+  std::vector<std::uint32_t> new_points_;    // of each point of the old slice, or none
+  std::vector<std::uint32_t> new_loops_;     // of each loop of it
+  std::vector<std::uint32_t> new_inner_;     // of each old inner vertex
+  std::vector<std::uint32_t> old_piece_of_;  // of each point of the old slices
+  std::vector<bool> is_concerned_;           // of each old piece
+  bool is_solid_ = true;                     // those concerned are
 };
 
 }  // namespace

@@ -304,9 +304,9 @@ std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, Po
   auto drafted = draft(slab, tight, overlay, workspace);
   workspace.overlay = slab.release();
   if (!drafted) return {};
-  collapse_crossings(lower, upper, drafted->tiles);
+  const bool is_decided = collapse_crossings(lower, upper, drafted->tiles, true);
   const bool is_doubtful = drafted->is_doubtful || shear != Point{};
-  drafted->tiles.is_plain = !is_doubtful;
+  drafted->tiles.is_plain = !is_doubtful && is_decided;
   if (is_doubtful && meet(lower, upper, drafted->tiles, pairs_left)) return {};
   return std::move(drafted->tiles);
 }
@@ -349,14 +349,14 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
 double doubt(const Region& lower, const Region& upper) { return scale(lower, upper).tight; }
 
 std::optional<TileSet> tile_plain(const Region& lower, const Region& upper, double doubt,
-                                  TileWorkspace& workspace) {
+                                  bool is_solid, TileWorkspace& workspace) {
   if (lower.is_empty() || upper.is_empty()) return {};
   Slab slab(lower, upper, {}, std::move(workspace.overlay));
   std::optional<Draft> drafted;
   if (slab.is_oriented()) drafted = draft(slab, doubt, Overlay::exact, workspace);
   workspace.overlay = slab.release();
   if (!drafted || drafted->is_doubtful) return {};
-  collapse_crossings(lower, upper, drafted->tiles);
+  if (!collapse_crossings(lower, upper, drafted->tiles, is_solid)) return {};
   drafted->tiles.is_plain = true;
   return std::move(drafted->tiles);
 }

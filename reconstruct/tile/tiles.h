@@ -23,11 +23,18 @@ struct Tile {
   FaceKind kind;
 };
 
+/// Where the tiles at a crossing may have been decided by what else is there.
+struct Reach {
+  cdt::Box box;
+  std::uint32_t node;  ///< a contour vertex of the same piece
+};
+
 /// All triangles of one slab. Nodes are numbered as in Lift: the points of the lower region, those
 /// of the upper region, then the inner vertices. Faces look out of the solid.
 struct TileSet {
   std::vector<InnerVertex> inner;
   std::vector<Tile> tiles;
+  std::vector<Reach> reaches;
   bool is_plain = false;  ///< they are what the overlay gives, without doubt: see tile_plain()
   bool is_linked = true;  ///< false: no valid tiles between the slices were found, both end here
 };
@@ -72,9 +79,11 @@ struct TileWorkspace {
 [[nodiscard]] double doubt(const Region& lower, const Region& upper);
 
 /// The tiles of a part of a slab, as tile() makes them, if nothing about them is in doubt: then
-/// they do not depend on what else is in the slab. `doubt` is that of the whole slab.
+/// they do not depend on what else is in the slab, but for what comes into their `reaches`. `doubt`
+/// is that of the whole slab; `is_solid` is false if what the regions enclose is a cavity there.
 [[nodiscard]] std::optional<TileSet> tile_plain(const Region& lower, const Region& upper,
-                                                double doubt, TileWorkspace& workspace);
+                                                double doubt, bool is_solid,
+                                                TileWorkspace& workspace);
 
 /// No limit.
 inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
