@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/box_tree.h"
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/replace.h"
 
@@ -96,7 +97,7 @@ Point offset(const Piece& piece) {
   const double longest = std::max(
       {std::abs(way.x), std::abs(way.y), std::min(piece.lower.radius, piece.upper.radius)});
   if (!(longest > 0)) return {};
-  const double unit = std::ldexp(1.0, std::ilogb(longest) - 20);
+  const double unit = std::ldexp(1.0, std::ilogb(longest) - 40);
   return {std::round(way.x / unit) * unit, std::round(way.y / unit) * unit};
 }
 
@@ -249,16 +250,22 @@ class Matching {
   void find_pairs() {
     std::erase_if(lower_, [this](const End& end) { return is_closing(end); });
     std::erase_if(upper_, [this](const End& end) { return is_closing(end); });
-    const auto x = [](const End& end) { return end.footprint->centroid.x; };
-    std::ranges::sort(upper_, {}, x);
-    double largest = 0;
-    for (const End& end : upper_) largest = std::max(largest, end.radius);
-    for (std::size_t i = 0; i < lower_.size(); ++i) {
-      const double reach = farthest_predicted * (lower_[i].radius + largest);
-      auto first = std::ranges::lower_bound(upper_, x(lower_[i]) - reach, {}, x);
-      for (; first != upper_.end() && x(*first) <= x(lower_[i]) + reach; ++first)
-        consider(i, static_cast<std::size_t>(first - upper_.begin()));
-    }
+    std::ranges::sort(upper_, {}, [](const End& end) { return end.footprint->centroid.x; });
+    std::vector<Box3> boxes;
+    boxes.reserve(upper_.size());
+    for (const End& end : upper_) boxes.push_back(surroundings(end));
+    const BoxTree tree(boxes);
+    for (std::size_t i = 0; i < lower_.size(); ++i)
+      tree.for_each_meeting(surroundings(lower_[i]), [&](std::uint32_t j) { consider(i, j); });
+  }
+
+  /// Of two ends near enough to belong together these meet: each has its share of how far a part
+  /// may go, and a little for rounding.
+  [[nodiscard]] static Box3 surroundings(const End& end) {
+    const Point p = end.footprint->centroid;
+    const double reach =
+        farthest_predicted * end.radius + 1e-12 * (std::abs(p.x) + std::abs(p.y) + end.radius);
+    return {{p.x - reach, p.y - reach, 0}, {p.x + reach, p.y + reach, 0}};
   }
 
   void consider(std::size_t i, std::size_t j) {

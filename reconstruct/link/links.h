@@ -13,7 +13,7 @@ namespace loft {
 /// Correspondence beyond overlap: parts that move sideways between
 /// two slices, by a good deal of their width or by more. Sizes are Footprint::radius.
 
-/// From the centroid of a piece's upper footprint to that of its lower one, rounded to a millionth:
+/// From the centroid of a piece's upper footprint to that of its lower one, rounded to 2^-40 of it:
 /// points moved by it lose little, and it does not depend on the order of sums.
 [[nodiscard]] cdt::Point offset(const Piece& piece);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "reconstruct/tile/slab.h"
+#include "reconstruct/tile/tiles.h"
 
 namespace loft {
 
@@ -17,8 +18,7 @@ constexpr std::uint32_t none = Origin::none;
 
 class PartFinder {
  public:
-  PartFinder(const Region& lower, const Region& upper)
-      : slab_(lower, upper), mesh_(slab_.overlay()) {}
+  explicit PartFinder(const Slab& slab) : slab_(slab), mesh_(slab.overlay()) {}
 
   PartGraph run() {
     PartGraph graph;
@@ -80,7 +80,7 @@ class PartFinder {
     }
   }
 
-  Slab slab_;
+  const Slab& slab_;
   const Triangulation& mesh_;
   std::vector<std::uint32_t> label_;  // the part of each triangle, or none
 };
@@ -88,7 +88,12 @@ class PartFinder {
 }  // namespace
 
 PartGraph find_parts(const Region& lower, const Region& upper) {
-  return PartFinder(lower, upper).run();
+  const Slab slab(lower, upper);
+  const double contact = loft::contact(lower, upper);
+  if (slab.has_near_contact(contact))
+    if (const auto merged = Slab::merged(lower, upper, {}, contact))
+      return PartFinder(*merged).run();
+  return PartFinder(slab).run();
 }
 
 }  // namespace loft

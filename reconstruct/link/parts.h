@@ -9,7 +9,8 @@
 namespace loft {
 
 /// The parts of a slab's two regions (connected components: an outer loop and the holes in it), and
-/// which of one slice overlap which of the other.
+/// which of one slice overlap which of the other. Contours within contact() of each other are taken
+/// to meet: that is no overlap.
 struct PartGraph {
   struct Overlap {
     std::uint32_t lower;

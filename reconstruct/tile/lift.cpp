@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "reconstruct/tile/sheet_heights.h"
@@ -120,17 +121,15 @@ void Lift::decide_columns() {
     if (heights_[i] == Height::by_wedge) columns_.push_back(VertexId(i));
   std::ranges::sort(columns_, {}, [&](VertexId v) { return mesh_.point(v); });
   if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::by_wedge);
-  for (const VertexId v : columns_) {
-    for (const Wedge& wedge : wedges(v)) {
-      const Level level = choose(wedge);
-      set_heights(wedge, level);
-      choices_[{v, mesh_.passages(wedge.first).front().segment()}] = level;
-    }
-  }
+  // All before any is set, so that the order of places does not matter.
+  for (const VertexId v : columns_)
+    for (const Wedge& wedge : wedges(v))
+      choices_[{v, mesh_.passages(wedge.first).front().segment()}] = choose(wedge);
+  set_columns();
 }
 
-/// After splits: contour edges at a column stay, so wedges are known by their first one.
-void Lift::restore_columns() {
+/// Also after splits: contour edges at a column stay, so wedges are known by their first one.
+void Lift::set_columns() {
   if (!columns_.empty()) column_heights_.assign(mesh_.edge_bound(), Height::by_wedge);
   for (const VertexId v : columns_)
     for (const Wedge& wedge : wedges(v))
@@ -260,15 +259,28 @@ double Lift::z_at(EdgeId corner) const {
   }
 }
 
-/// Inserts Steiner vertices in the order of their ranks, then of their places, so that the result
-/// does not depend on ids. One whose edge an earlier one has flipped away is left out.
-/// Returns whether there was anything to do.
-bool Lift::insert(std::vector<Steiner> steiners) {
-  std::ranges::sort(steiners, [](const Steiner& a, const Steiner& b) {
-    return a.rank != b.rank ? a.rank < b.rank : a.place < b.place;
-  });
+/// Of a Steiner vertex's edge or triangle: the longest side.
+double Lift::extent(const Steiner& steiner) const {
+  const auto [a, b, c] = steiner.corners;
+  const double side = distance(mesh_.point(a), mesh_.point(b));
+  if (c.is_none()) return side;
+  return std::max(
+      {side, distance(mesh_.point(b), mesh_.point(c)), distance(mesh_.point(c), mesh_.point(a))});
+}
+
+/// Inserts Steiner vertices in the order of their ranks. Many are the same but for rounding, as
+/// middles of two chords over one contour edge are equally deep: then the shorter edge comes first.
+/// Places decide last, so that the result does not depend on ids. One whose edge an earlier one has
+/// flipped away is left out. Returns whether there was anything to do.
+bool Lift::insert(const std::vector<Steiner>& unsorted) {
+  std::vector<std::tuple<float, float, Point, const Steiner*>> sorted;
+  for (const Steiner& steiner : unsorted)
+    sorted.emplace_back(static_cast<float>(steiner.rank), static_cast<float>(extent(steiner)),
+                        steiner.place, &steiner);
+  std::ranges::sort(sorted);
   bool is_changed = false;
-  for (const Steiner& steiner : steiners) {
+  for (const auto& [rank, extent, place, steiner_of] : sorted) {
+    const Steiner& steiner = *steiner_of;
     if (const auto v = split(steiner)) {
       add_inner(*v, steiner.z, VertexKind::steiner);
       is_changed = true;
@@ -276,7 +288,7 @@ bool Lift::insert(std::vector<Steiner> steiners) {
   }
   if (is_changed) {
     slab_.refresh();
-    restore_columns();
+    set_columns();
   }
   return is_changed;
 }

@@ -72,13 +72,14 @@ class Lift {
   [[nodiscard]] int chords(const Wedge& wedge, Level level) const;
   void set_heights(const Wedge& wedge, Level level);
   void decide_columns();
-  void restore_columns();
+  void set_columns();
   void lift_vertices();
   [[nodiscard]] std::vector<Steiner> find_chords() const;
   [[nodiscard]] std::vector<Steiner> find_flat() const;
   [[nodiscard]] Steiner in_middle_of(cdt::EdgeId e, SheetHeights& heights) const;
   [[nodiscard]] std::vector<Steiner> find_coarse_ends() const;
-  bool insert(std::vector<Steiner> steiners);
+  [[nodiscard]] double extent(const Steiner& steiner) const;
+  bool insert(const std::vector<Steiner>& unsorted);
   [[nodiscard]] double z_at(cdt::EdgeId corner) const;
   void add_inner(cdt::VertexId v, double z, VertexKind kind);
   [[nodiscard]] bool is_chord(cdt::EdgeId e) const;

@@ -22,6 +22,78 @@ Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift, cdt::Tria
   refresh();
 }
 
+/// Where two things are near each other, there is a triangle between them that is no higher, or a
+/// side of one that is no longer; or they meet already, but for rounding.
+bool Slab::has_near_contact(double contact) const {
+  for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
+    const cdt::EdgeId e(i);
+    if (!overlay_.is_triangle(cdt::Triangulation::triangle(e)) ||
+        overlay_.is_infinite(cdt::Triangulation::triangle(e)))
+      continue;
+    if (is_short_between_slices(e, contact) || is_low_between_slices(e, contact)) return true;
+    if (is_bent(e)) return true;
+  }
+  return false;
+}
+
+/// Whether a contour edge goes on after `e` through a vertex of the other slice that is beside it.
+bool Slab::is_bent(cdt::EdgeId e) const {
+  const cdt::VertexId v = overlay_.to(e);
+  return std::ranges::any_of(overlay_.passages(e), [&](cdt::Passage passage) {
+    const cdt::Segment& segment = overlay_.segment(passage.segment());
+    return v != segment.from && v != segment.to && is_vertex(v, other(level(passage.segment()))) &&
+           cdt::orient(overlay_.point(segment.from), overlay_.point(segment.to),
+                       overlay_.point(v)) != 0;
+  });
+}
+
+/// Whether an edge no longer than `contact` joins what are not two vertices of one slice.
+bool Slab::is_short_between_slices(cdt::EdgeId e, double contact) const {
+  const cdt::VertexId from = overlay_.from(e);
+  const cdt::VertexId to = overlay_.to(e);
+  const cdt::Point a = overlay_.point(from);
+  const cdt::Point b = overlay_.point(to);
+  if (std::abs(b.x - a.x) > contact || std::abs(b.y - a.y) > contact) return false;
+  const auto are_of = [&](Level level) { return is_vertex(from, level) && is_vertex(to, level); };
+  return !are_of(Level::lower) && !are_of(Level::upper);
+}
+
+/// Whether the vertex across from a contour edge is of the other slice, and no farther from the
+/// edge's line than `contact`.
+bool Slab::is_low_between_slices(cdt::EdgeId e, double contact) const {
+  if (overlay_.passages(e).empty()) return false;
+  const cdt::VertexId apex = overlay_.apex(e);
+  const cdt::Point a = overlay_.point(overlay_.from(e));
+  const cdt::Point b = overlay_.point(overlay_.to(e));
+  const cdt::Point c = overlay_.point(apex);
+  const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+  const double widest = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
+  if (area > 2 * contact * widest) return false;
+  if ((c.x - a.x) * (c.x - b.x) + (c.y - a.y) * (c.y - b.y) > 0) return false;  // beside the edge
+  return std::ranges::any_of(overlay_.passages(e), [&](cdt::Passage passage) {
+    const Level own = level(passage.segment());
+    return is_vertex(apex, other(own)) && !is_vertex(apex, own);
+  });
+}
+
+std::optional<Slab> Slab::merged(const Region& lower, const Region& upper, cdt::Point shift,
+                                 double contact) {
+  Slab slab(lower, upper, shift, cdt::Triangulation(contact));
+  if (!slab.keeps_vertices(Level::lower) || !slab.keeps_vertices(Level::upper)) return {};
+  return slab;
+}
+
+/// Whether each contour vertex of a slice is an overlay vertex of its own.
+bool Slab::keeps_vertices(Level level) const {
+  const auto& loop_vertices = region(level).loop_vertices;
+  const std::size_t first = level == Level::lower ? 0 : lower_.loop_vertices.size();
+  for (std::size_t i = 0; i < loop_vertices.size(); ++i) {
+    const auto& segment = overlay_.segment(cdt::SegmentId(static_cast<std::uint32_t>(first + i)));
+    if (segment.from == segment.to || index(segment.from, level) != loop_vertices[i]) return false;
+  }
+  return true;
+}
+
 Vec3 Slab::place(cdt::VertexId v, double z) const {
   const double share = (z - lower_.z) / height();
   const cdt::Point p = overlay_.point(v);

@@ -32,6 +32,15 @@ class Slab {
   Slab(const Region& lower, const Region& upper, cdt::Point shift = {},
        cdt::Triangulation memory = {});
 
+  /// Whether contours come nearer to each other than `contact` without meeting exactly. By rounding
+  /// alone those do that had a side or a corner in common until the stack was turned.
+  [[nodiscard]] bool has_near_contact(double contact) const;
+  /// The slab with an overlay in which such vertices are one and such edges go through them, as if
+  /// they met exactly; the tiles have to be tested. None if that would make vertices of one slice
+  /// one.
+  [[nodiscard]] static std::optional<Slab> merged(const Region& lower, const Region& upper,
+                                                  cdt::Point shift, double contact);
+
   [[nodiscard]] const Region& lower() const { return lower_; }
   [[nodiscard]] const Region& upper() const { return upper_; }
   [[nodiscard]] const Region& region(Level level) const {
@@ -42,6 +51,12 @@ class Slab {
   [[nodiscard]] const cdt::Triangulation& overlay() const { return overlay_; }
   /// Where an overlay vertex is in space, once it is lifted to height z.
   [[nodiscard]] Vec3 place(cdt::VertexId v, double z) const;
+
+  /// Where a place in space is in the overlay.
+  [[nodiscard]] cdt::Point in_overlay(const Vec3& place) const {
+    const double share = (place[2] - lower_.z) / height();
+    return {place[0] + share * shift_.x, place[1] + share * shift_.y};
+  }
 
   /// Whether rounding has decided nothing: contours of the two slices cross in vertices of their
   /// own, and otherwise meet exactly where they pass through each other's vertices.
@@ -91,6 +106,10 @@ class Slab {
 
  private:
   void note_vertices(Level level);
+  [[nodiscard]] bool keeps_vertices(Level level) const;
+  [[nodiscard]] bool is_bent(cdt::EdgeId e) const;
+  [[nodiscard]] bool is_short_between_slices(cdt::EdgeId e, double contact) const;
+  [[nodiscard]] bool is_low_between_slices(cdt::EdgeId e, double contact) const;
   [[nodiscard]] bool is_lower(cdt::EdgeId e, double height) const;
 
   const Region& lower_;

@@ -123,14 +123,20 @@ class Tiling {
   /// Triangulates polygon_, counter-clockwise as seen from outside, over the line from -> to. How
   /// does not depend on the line's direction: it is seen from the same side, turned or not.
   void fill_upright(const Vec3& from, const Vec3& to) {
-    const unsigned axis = std::abs(to[0] - from[0]) >= std::abs(to[1] - from[1]) ? 0 : 1;
+    const bool is_along_x = std::abs(to[0] - from[0]) >= std::abs(to[1] - from[1]);
+    const auto along = [&](const Vec3& p) {
+      const Point flat = slab_.in_overlay(p);
+      return is_along_x ? flat.x : flat.y;
+    };
+    const auto [low, high] = std::minmax({along(from), along(to)});
+    const double bottom = slab_.lower().z;
     flat_.clear();
     for (const std::uint32_t node : polygon_) {
       const Vec3 p = place(node);
-      flat_.push_back({p[axis], p[2]});
+      flat_.push_back({(along(p) - low) / (high - low), (p[2] - bottom) / slab_.height()});
     }
     const std::size_t count = tiles_.tiles.size();
-    if (polygon_.size() > 3) fill_polygon(to[axis] < from[axis]);
+    if (polygon_.size() > 3) fill_polygon(along(to) < along(from));
     if (tiles_.tiles.size() == count + polygon_.size() - 2) return;
     // A triangle; or rounding has bent the roof into the base: then what counts is to close it.
     tiles_.tiles.resize(count);
@@ -174,6 +180,10 @@ class Tiling {
   Triangulation& wall_;
   std::vector<std::uint32_t> corner_;
 };
+
+/// Slices that come nearer to each other than that may do so by rounding alone: a share of what
+/// makes a triangle tight.
+double contact_of(double tight) { return tight * 0x1p-4; }
 
 /// Lengths of a slab that matter for rounding.
 struct Scale {
@@ -296,17 +306,44 @@ std::optional<Draft> draft(Slab& slab, double tight, Overlay overlay, TileWorksp
   return Draft{std::move(tiles), !is_exact || tiling.is_forced() || slab.is_tight(tight)};
 }
 
+/// A way to tile a slab.
+struct Attempt {
+  Point shear;
+  Overlay overlay;
+  double tight;
+  double contact;  // within which slices are merged; 0: they are not
+};
+
+/// The tiles of a slab whose slices come within rounding of each other: as if they met exactly
+/// there, so that it does not matter which way they were rounded. None if these are not valid.
+std::optional<TileSet> tile_merged(const Region& lower, const Region& upper, const Attempt& how,
+                                   std::size_t& pairs_left, TileWorkspace& workspace) {
+  auto slab = Slab::merged(lower, upper, how.shear, how.contact);
+  if (!slab) return {};
+  auto drafted = draft(*slab, 0, Overlay::rounded, workspace);
+  if (!drafted) return {};
+  collapse_crossings(lower, upper, drafted->tiles, true);
+  if (meet(lower, upper, drafted->tiles, pairs_left)) return {};
+  return std::move(drafted->tiles);
+}
+
 /// The tiles of a slab that is sheared on the way. None if they are not valid.
-std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, Point shear,
-                                    double tight, Overlay overlay, std::size_t& pairs_left,
-                                    TileWorkspace& workspace) {
-  Slab slab(lower, upper, shear, std::move(workspace.overlay));
-  auto drafted = draft(slab, tight, overlay, workspace);
+std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, const Attempt& how,
+                                    std::size_t& pairs_left, TileWorkspace& workspace) {
+  Slab slab(lower, upper, how.shear, std::move(workspace.overlay));
+  const bool is_near = how.contact > 0 && slab.has_near_contact(how.contact);
+  if (is_near) {
+    if (auto tiles = tile_merged(lower, upper, how, pairs_left, workspace)) {
+      workspace.overlay = slab.release();
+      return tiles;
+    }
+  }
+  auto drafted = draft(slab, how.tight, how.overlay, workspace);
   workspace.overlay = slab.release();
   if (!drafted) return {};
   const bool is_decided = collapse_crossings(lower, upper, drafted->tiles, true);
-  const bool is_doubtful = drafted->is_doubtful || shear != Point{};
-  drafted->tiles.is_plain = !is_doubtful && is_decided;
+  const bool is_doubtful = drafted->is_doubtful || how.shear != Point{};
+  drafted->tiles.is_plain = !is_doubtful && is_decided && !is_near;
   if (is_doubtful && meet(lower, upper, drafted->tiles, pairs_left)) return {};
   return std::move(drafted->tiles);
 }
@@ -335,9 +372,9 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
       const double turn = 2.399963 * attempt;  // the golden angle
       const double step = attempt * lengths.shear;
       const Point shear{shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)};
-      if (auto tiles =
-              tile_sheared(lower, upper, shear, lengths.tight, overlay, pairs_left, workspace))
-        return tiles;
+      const bool is_first = overlay == Overlay::exact && attempt == 0;
+      const Attempt here{shear, overlay, lengths.tight, is_first ? contact_of(lengths.tight) : 0};
+      if (auto tiles = tile_sheared(lower, upper, here, pairs_left, workspace)) return tiles;
       if (pairs_left == 0) return std::nullopt;
     }
   }
@@ -348,12 +385,15 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
 
 double doubt(const Region& lower, const Region& upper) { return scale(lower, upper).tight; }
 
+double contact(const Region& lower, const Region& upper) { return contact_of(doubt(lower, upper)); }
+
 std::optional<TileSet> tile_plain(const Region& lower, const Region& upper, double doubt,
                                   bool is_solid, TileWorkspace& workspace) {
   if (lower.is_empty() || upper.is_empty()) return {};
   Slab slab(lower, upper, {}, std::move(workspace.overlay));
   std::optional<Draft> drafted;
-  if (slab.is_oriented()) drafted = draft(slab, doubt, Overlay::exact, workspace);
+  if (slab.is_oriented() && !slab.has_near_contact(contact_of(doubt)))
+    drafted = draft(slab, doubt, Overlay::exact, workspace);
   workspace.overlay = slab.release();
   if (!drafted || drafted->is_doubtful) return {};
   if (!collapse_crossings(lower, upper, drafted->tiles, is_solid)) return {};

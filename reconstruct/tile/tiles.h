@@ -77,6 +77,9 @@ struct TileWorkspace {
 /// Triangles of an overlay lower than that are tested for what rounding does to them: a function of
 /// the slab's size, rounded up to a power of two.
 [[nodiscard]] double doubt(const Region& lower, const Region& upper);
+/// Contours of the two that come nearer to each other than that are taken to meet: by rounding
+/// alone they may, or may not.
+[[nodiscard]] double contact(const Region& lower, const Region& upper);
 
 /// The tiles of a part of a slab, as tile() makes them, if nothing about them is in doubt: then
 /// they do not depend on what else is in the slab, but for what comes into their `reaches`. `doubt`
