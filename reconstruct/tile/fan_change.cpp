@@ -2,10 +2,9 @@
 #include "reconstruct/tile/fan_change.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <vector>
 
 #include "mesh/vec3.h"
 #include "reconstruct/plane/nearest.h"
@@ -35,12 +34,6 @@ double shape(const Corners& t, double stretch) {
   return (dot(u, u) * dot(v, v) - dot(u, v) * dot(u, v)) / (sides * sides);
 }
 
-/// In one order, whatever the numbers come in: so it is rounded in one way.
-double sum(std::vector<double>& numbers) {
-  std::ranges::sort(numbers);
-  return std::accumulate(numbers.begin(), numbers.end(), 0.0);
-}
-
 }  // namespace
 
 void SheetsAround::add(const Corners& triangle) {
@@ -59,29 +52,30 @@ double reach(const Vec3& point, std::span<const Corners> triangles) {
 }
 
 double gained_area(const Vec3& crossing, std::span<const Corners> fan, double height) {
-  std::vector<double> gains;
-  std::vector<double> losses;
-  for (const Corners& t : fan) {
-    const double six_times =
-        dot(minus(t[0], crossing), cross(minus(t[1], crossing), minus(t[2], crossing)));
-    (six_times > 0 ? gains : losses).push_back(std::abs(six_times));
+  // From the same end, whichever way round the fan goes, so that sums are rounded in one way.
+  const bool is_backwards = !fan.empty() && fan.back()[2] < fan.front()[1];
+  double six_times = 0;
+  for (std::size_t i = 0; i < fan.size(); ++i) {
+    const Corners& t = fan[is_backwards ? fan.size() - 1 - i : i];
+    six_times += dot(minus(t[0], crossing), cross(minus(t[1], crossing), minus(t[2], crossing)));
   }
-  return (sum(gains) - sum(losses)) / 6 / height;
+  return six_times / 6 / height;
 }
 
 double sideways_drift(const Vec3& crossing, std::span<const Corners> fan) {
   const double z = crossing[2];
   double least = infinity;
   for (const Corners& t : fan) {
-    std::vector<Point> ends;
+    std::array<Point, 3> ends;
+    std::size_t count = 0;
     for (unsigned i = 0; i < 3; ++i) {
       const auto [a, b] = std::minmax(t[i], t[(i + 1) % 3]);
       if (std::min(a[2], b[2]) <= z && z <= std::max(a[2], b[2]))
-        ends.push_back(at_height(a, b, z));
+        ends[count++] = at_height(a, b, z);
     }
-    std::ranges::sort(ends);
-    for (const Point end : ends)
-      least = std::min(least, distance({crossing[0], crossing[1]}, ends.front(), end));
+    std::sort(ends.begin(), ends.begin() + count);
+    for (std::size_t i = 0; i < count; ++i)
+      least = std::min(least, distance({crossing[0], crossing[1]}, ends[0], ends[i]));
   }
   return least;
 }

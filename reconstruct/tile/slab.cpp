@@ -27,13 +27,22 @@ Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift, cdt::Tria
 bool Slab::has_near_contact(double contact) const {
   for (std::uint32_t i = 0; i < overlay_.edge_bound(); ++i) {
     const cdt::EdgeId e(i);
-    if (!overlay_.is_triangle(cdt::Triangulation::triangle(e)) ||
-        overlay_.is_infinite(cdt::Triangulation::triangle(e)))
-      continue;
-    if (is_short_between_slices(e, contact) || is_low_between_slices(e, contact)) return true;
-    if (is_bent(e)) return true;
+    if (!overlay_.is_triangle(cdt::Triangulation::triangle(e))) continue;
+    if (is_short_between_slices(e, contact)) return true;
+    if (overlay_.is_constrained(e) && (is_bent(e) || is_near_apex(e, contact))) return true;
   }
   return false;
+}
+
+/// Whether an edge no longer than `contact` joins what are not two vertices of one slice.
+bool Slab::is_short_between_slices(cdt::EdgeId e, double contact) const {
+  const cdt::VertexId from = overlay_.from(e);
+  const cdt::VertexId to = overlay_.to(e);
+  const cdt::Point a = overlay_.point(from);
+  const cdt::Point b = overlay_.point(to);
+  if (!(std::abs(b.x - a.x) <= contact && std::abs(b.y - a.y) <= contact)) return false;
+  const auto are_of = [&](Level level) { return is_vertex(from, level) && is_vertex(to, level); };
+  return !are_of(Level::lower) && !are_of(Level::upper);
 }
 
 /// Whether a contour edge goes on after `e` through a vertex of the other slice that is beside it.
@@ -47,29 +56,17 @@ bool Slab::is_bent(cdt::EdgeId e) const {
   });
 }
 
-/// Whether an edge no longer than `contact` joins what are not two vertices of one slice.
-bool Slab::is_short_between_slices(cdt::EdgeId e, double contact) const {
-  const cdt::VertexId from = overlay_.from(e);
-  const cdt::VertexId to = overlay_.to(e);
-  const cdt::Point a = overlay_.point(from);
-  const cdt::Point b = overlay_.point(to);
-  if (std::abs(b.x - a.x) > contact || std::abs(b.y - a.y) > contact) return false;
-  const auto are_of = [&](Level level) { return is_vertex(from, level) && is_vertex(to, level); };
-  return !are_of(Level::lower) && !are_of(Level::upper);
-}
-
 /// Whether the vertex across from a contour edge is of the other slice, and no farther from the
-/// edge's line than `contact`.
-bool Slab::is_low_between_slices(cdt::EdgeId e, double contact) const {
-  if (overlay_.passages(e).empty()) return false;
+/// edge than `contact`.
+bool Slab::is_near_apex(cdt::EdgeId e, double contact) const {
+  if (overlay_.is_infinite(cdt::Triangulation::triangle(e))) return false;
   const cdt::VertexId apex = overlay_.apex(e);
   const cdt::Point a = overlay_.point(overlay_.from(e));
   const cdt::Point b = overlay_.point(overlay_.to(e));
   const cdt::Point c = overlay_.point(apex);
   const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-  const double widest = std::max(std::abs(b.x - a.x), std::abs(b.y - a.y));
-  if (area > 2 * contact * widest) return false;
-  if ((c.x - a.x) * (c.x - b.x) + (c.y - a.y) * (c.y - b.y) > 0) return false;  // beside the edge
+  if (area > 2 * contact * std::max(std::abs(b.x - a.x), std::abs(b.y - a.y))) return false;
+  if ((c.x - a.x) * (c.x - b.x) + (c.y - a.y) * (c.y - b.y) > 0) return false;  // not beside it
   return std::ranges::any_of(overlay_.passages(e), [&](cdt::Passage passage) {
     const Level own = level(passage.segment());
     return is_vertex(apex, other(own)) && !is_vertex(apex, own);

@@ -109,7 +109,7 @@ class Slab {
   [[nodiscard]] bool keeps_vertices(Level level) const;
   [[nodiscard]] bool is_bent(cdt::EdgeId e) const;
   [[nodiscard]] bool is_short_between_slices(cdt::EdgeId e, double contact) const;
-  [[nodiscard]] bool is_low_between_slices(cdt::EdgeId e, double contact) const;
+  [[nodiscard]] bool is_near_apex(cdt::EdgeId e, double contact) const;
   [[nodiscard]] bool is_lower(cdt::EdgeId e, double height) const;
 
   const Region& lower_;
