@@ -90,7 +90,7 @@ class Retiling {
     }
   }
 
-  /// Around all loops that came or went.
+  /// Around all loops that came or went, and what they might touch.
   void find_box() {
     const auto add = [this](const Region& region, std::uint32_t i) {
       for (const std::uint32_t v : region.loop(i)) box_.add(region.points[v]);
@@ -99,14 +99,20 @@ class Retiling {
       if (new_loops_[i] == none) add(old_slice(), i);
     for (std::uint32_t i = 0; i < change_.old_loops.size(); ++i)
       if (change_.old_loops[i] == none) add(new_slice(), i);
+    if (box_.is_empty()) return;
+    const double contact = loft::contact(change_.lower, change_.upper);
+    box_.low = {box_.low.x - contact, box_.low.y - contact};
+    box_.high = {box_.high.x + contact, box_.high.y + contact};
   }
 
-  [[nodiscard]] cdt::Box old_footprint(const Tile& tile) const {
-    return footprint(
-        {old_place(tile.nodes[0]), old_place(tile.nodes[1]), old_place(tile.nodes[2])});
-  }
-  [[nodiscard]] Vec3 old_place(std::uint32_t node) const {
-    return place_of(change_.old_lower, change_.old_upper, change_.old_tiles.inner, node);
+  void note_footprints() {
+    const auto place = [this](std::uint32_t node) {
+      return place_of(change_.old_lower, change_.old_upper, change_.old_tiles.inner, node);
+    };
+    footprints_.reserve(change_.old_tiles.tiles.size());
+    for (const Tile& tile : change_.old_tiles.tiles)
+      footprints_.push_back(
+          footprint({place(tile.nodes[0]), place(tile.nodes[1]), place(tile.nodes[2])}));
   }
 
   [[nodiscard]] bool is_concerned(const Reach& reach) const {
@@ -118,9 +124,8 @@ class Retiling {
   bool add_pieces(const cdt::Box& tiles_in, const cdt::Box& reaches_in) {
     const std::vector<std::uint32_t>& of_tile = change_.old_pieces.of_tile;
     bool is_new = false;
-    for (std::size_t t = 0; t < of_tile.size(); ++t) {
-      if (is_concerned_[of_tile[t]]) continue;
-      if (!boxes_meet(old_footprint(change_.old_tiles.tiles[t]), tiles_in)) continue;
+    for (std::size_t t = 0; t < of_tile.size() && !tiles_in.is_empty(); ++t) {
+      if (is_concerned_[of_tile[t]] || !boxes_meet(footprints_[t], tiles_in)) continue;
       is_concerned_[of_tile[t]] = is_new = true;
     }
     for (const Reach& reach : change_.old_tiles.reaches) {
@@ -137,8 +142,7 @@ class Retiling {
       if (is_concerned(reach)) add(reaches, reach.box);
     cdt::Box tiles = reaches;
     for (std::size_t t = 0; t < change_.old_tiles.tiles.size(); ++t)
-      if (is_concerned_[change_.old_pieces.of_tile[t]])
-        add(tiles, old_footprint(change_.old_tiles.tiles[t]));
+      if (is_concerned_[change_.old_pieces.of_tile[t]]) add(tiles, footprints_[t]);
     return add_pieces(reaches, tiles);
   }
 
@@ -155,6 +159,7 @@ class Retiling {
     is_concerned_.assign(pieces.pieces.size(), false);
     note_old_pieces();
     if (box_.is_empty()) return true;
+    note_footprints();
     add_pieces(box_, box_);
     if (!change_.old_tiles.reaches.empty())
       while (spread()) {
@@ -255,9 +260,9 @@ class Retiling {
     for (const Tile& tile : made.tiles) add(tiles, new_footprint(made, tile));
     return std::ranges::none_of(result_.tiles.reaches,
                                 [&](const Reach& kept) { return boxes_meet(kept.box, tiles); }) &&
-           std::ranges::none_of(result_.tiles.tiles, [&](const Tile& kept) {
-             return boxes_meet(new_footprint(result_.tiles, kept), reaches);
-           });
+           (reaches.is_empty() || std::ranges::none_of(result_.kept, [&](std::uint32_t kept) {
+              return boxes_meet(footprints_[kept], reaches);
+            }));
   }
   [[nodiscard]] cdt::Box new_footprint(const TileSet& tiles, const Tile& tile) const {
     const auto place = [&](std::uint32_t node) {
@@ -288,6 +293,7 @@ class Retiling {
   std::vector<std::uint32_t> new_loops_;     // of each loop of it
   std::vector<std::uint32_t> new_inner_;     // of each old inner vertex
   std::vector<std::uint32_t> old_piece_of_;  // of each point of the old slices
+  std::vector<cdt::Box> footprints_;         // of the old tiles
   std::vector<bool> is_concerned_;           // of each old piece
   bool is_solid_ = true;                     // those concerned are
 };

@@ -191,6 +191,32 @@ TEST(Reconstruction, RandomEditsOfOpenSurfacesThatTouchGiveWhatTheBatchGives) {
   }
 }
 
+TEST(Reconstruction, RandomEditsOfTurnedMasksGiveWhatTheBatchGives) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    std::vector<Slice> pool = mask_pool(seed, 5, 0.4);
+    const double angle = 0.3 * static_cast<double>(seed);
+    for (Slice& slice : pool)
+      for (Contour& contour : slice.contours)
+        for (cdt::Point& p : contour.points)
+          p = {p.x * std::cos(angle) - p.y * std::sin(angle),
+               p.x * std::sin(angle) + p.y * std::cos(angle)};
+    play(pool, {}, seed, edit_count(40), 1);
+  }
+}
+
+TEST(Reconstruction, AContourThatComesWithinRoundingOfAnotherSliceTouchesItAsInTheBatch) {
+  const Contour other = stacks::square(2, {9, 0});
+  for (const double gap : {0.0, 1e-15, 1e-13, -1e-13, 1e-9}) {
+    Reconstruction live;
+    for (const double z : {0, 1, 2}) live.insert(Slice{z, {stacks::square(2), other}});
+    live.insert(Slice{3, {other}});
+    live.replace(3, Slice{3, {other, stacks::square(1, {3 + gap, 0})}});
+    EXPECT_EQ(difference(live, {}), "") << gap;
+    Surface compact = live.snapshot().surface(1);
+    EXPECT_EQ(solids::faults(compact), "") << gap;
+  }
+}
+
 TEST(Reconstruction, SlabsThatAreSewnAnewAreNamed) {
   const auto pair = [](double z) {
     return Slice{z, {stacks::square(1, {-1, -1}), stacks::square(1, {1, 1})}};
