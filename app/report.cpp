@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/report.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace loft::app {
@@ -80,6 +81,7 @@ std::string grouped(std::size_t number) {
 }
 
 std::string rounded(double number) {
+  if (!std::isfinite(number)) return "out of range";
   std::ostringstream text;
   text.precision(4);
   text << number;

@@ -29,7 +29,7 @@ struct StackSize {
 
 /// `1,234,567`
 [[nodiscard]] std::string grouped(std::size_t number);
-/// Four significant digits, for people.
+/// Four significant digits, for people; words where a number is beyond all numbers.
 [[nodiscard]] std::string rounded(double number);
 /// `1,234 triangles, 619 vertices, 1 component, genus 0, area 12.3 mm^2, volume 4.56 mm^3`; `unit`
 /// is a name that metres_per_unit() knows; a number of metres, or nothing, is called `unit`.

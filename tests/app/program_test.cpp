@@ -313,6 +313,17 @@ TEST(Loft, CheckNamesTheFirstFacesOfACrowdedEdge) {
   EXPECT_NE(checked.out.find("faces 0 1 2 3 4 5 6 7 and 492 more"), std::string::npos);
 }
 
+TEST(Loft, CheckSaysWhatIsBeyondNumbersInWords) {
+  const Folder folder;
+  static_cast<void>(folder.write("far.off",
+                                 "OFF\n4 4 0\n0 0 0\n1e300 0 0\n0 1e300 0\n0 0 1e300\n"
+                                 "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n"));
+  const Outcome check = run(folder, "check far.off");
+  EXPECT_EQ(check.exit_code, 1);
+  EXPECT_NE(check.out.find("volume out of range"), std::string::npos) << check.out;
+  EXPECT_EQ(check.out.find("nan"), std::string::npos) << check.out;
+}
+
 TEST(Loft, ShowsWhatIsInAStack) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", labelled + "\n" + slice(4, "")));
