@@ -88,8 +88,7 @@ bool Nearness::all_near(const Corners& whole, std::span<const Corners> others) {
     cut(piece, others);
   }
   std::ranges::sort(used_);
-  const auto [first, last] = std::ranges::unique(used_);
-  used_.erase(first, last);
+  used_.erase(std::unique(used_.begin(), used_.end()), used_.end());
   return true;
 }
 

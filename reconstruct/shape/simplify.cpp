@@ -135,7 +135,7 @@ class Simplifier {
     std::vector<std::pair<Corners, Face>> sorted;
     for (const auto f : surface_.faces()) {
       Corners t = corners(f);
-      std::ranges::rotate(t, std::ranges::min_element(t));
+      std::rotate(t.begin(), std::ranges::min_element(t), t.end());
       sorted.emplace_back(t, f);
     }
     std::ranges::sort(sorted, {}, &std::pair<Corners, Face>::first);

@@ -9,8 +9,7 @@ namespace {
 
 void make_unique(std::vector<std::uint32_t>& numbers) {
   std::ranges::sort(numbers);
-  const auto [first, last] = std::ranges::unique(numbers);
-  numbers.erase(first, last);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
 }
 
 bool contains(std::span<const std::uint32_t> numbers, std::uint32_t number) {
