@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "mesh/triangle_shape.h"
 
@@ -18,6 +19,12 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// In sizes of a fan: a distance below that may be rounding, so whether it is 0 is decided exactly.
 constexpr double doubtful_distance = 0x1p-40;
+
+/// Cosine of the angle to the direction of view from which on a face counts as seen, the share of
+/// its normal by which the view is turned to one that is not, and how often that is tried.
+constexpr double least_facing = 0.1;
+constexpr double turning = 0.5;
+constexpr int most_turns = 16;
 
 /// A point seen along the normal of a fan from its middle: x and y across, z along.
 double area(const Vec3& a, const Vec3& b) { return a[0] * b[1] - a[1] * b[0]; }
@@ -35,6 +42,13 @@ double gap(const Vec3& end, const Vec3& a, const Vec3& b) {
   return std::abs(t * end[2] - (a[2] + s * ab[2]));
 }
 
+bool make_unit(Vec3& v) {
+  const double magnitude = length(v);
+  if (!(magnitude > 0)) return false;
+  for (double& x : v) x /= magnitude;
+  return true;
+}
+
 /// A unit vector at a right angle to a unit vector.
 Vec3 across(const Vec3& normal) {
   std::size_t least = 0;
@@ -43,8 +57,7 @@ Vec3 across(const Vec3& normal) {
   Vec3 unit{};
   unit[least] = 1;
   Vec3 result = cross(normal, unit);
-  const double magnitude = length(result);
-  for (double& x : result) x /= magnitude;
+  make_unit(result);
   return result;
 }
 
@@ -59,20 +72,28 @@ bool is_in_cone(const Vec3& p, const Vec3& apex, const Corners& t) {
 }  // namespace
 
 bool Fan::read(const Surface& surface, Surface::VertexHandle v) {
-  spokes_.clear();
-  if (surface.is_boundary(v)) return false;
-  const Halfedge start = surface.halfedge_handle(v);
-  Halfedge h = start;
-  do {
-    if (spokes_.size() == largest_fan) return false;
-    const OpenMesh::Vec3d& p = surface.point(surface.to_vertex_handle(h));
-    spokes_.push_back({h, surface.face_handle(h), {p[0], p[1], p[2]}});
-    h = surface.opposite_halfedge_handle(surface.prev_halfedge_handle(h));
-  } while (h != start);
+  is_open_ = surface.is_boundary(v);
+  collect(surface, v);
+  if (spokes_.size() > largest_fan) return false;
   const OpenMesh::Vec3d& p = surface.point(v);
   middle_ = {p[0], p[1], p[2]};
-  start_at_smallest();
+  if (!is_open_) start_at_smallest();
   return look_along_normal();
+}
+
+void Fan::collect(const Surface& surface, Surface::VertexHandle v) {
+  spokes_.clear();
+  const auto next = [&](Halfedge h) {
+    return surface.opposite_halfedge_handle(surface.prev_halfedge_handle(h));
+  };
+  Halfedge start = surface.halfedge_handle(v);
+  if (is_open_) start = next(start);  // that of a vertex on a rim has the rim on its left
+  Halfedge h = start;
+  do {
+    const OpenMesh::Vec3d& p = surface.point(surface.to_vertex_handle(h));
+    spokes_.push_back({h, surface.face_handle(h), {p[0], p[1], p[2]}});
+    h = next(h);
+  } while (h != start && spokes_.size() <= largest_fan);
 }
 
 bool Fan::sweeps(std::size_t target, const Corners& t) const {
@@ -89,13 +110,14 @@ bool Fan::sweeps(std::size_t target, const Corners& t) const {
 
 double Fan::distance(std::size_t target) const {
   if (!keeps_sides(target)) return infinity;
-  const double distance = std::max(distance_at_middle(target), distance_at_crossings(target));
+  const double distance = std::max(is_open_ ? distance_at_rim() : distance_at_middle(target),
+                                   distance_at_crossings(target));
   return distance <= doubtful_distance * extent_ && changes_nothing(target) ? 0 : distance;
 }
 
 double Fan::worst_sine(std::size_t target) const {
   double worst = infinity;
-  for (std::size_t i = 0; i < size(); ++i)
+  for (std::size_t i = 0; i < faces(); ++i)
     if (!vanishes(i, target)) worst = std::min(worst, smallest_sine(moved(i, target)));
   return worst;
 }
@@ -107,7 +129,7 @@ std::size_t Fan::find(const Vec3& p) const {
 }
 
 bool Fan::sweeps_point(std::size_t target, const Vec3& p) const {
-  for (std::size_t i = 0; i < size(); ++i) {
+  for (std::size_t i = 0; i < faces(); ++i) {
     if (vanishes(i, target)) continue;
     const auto& [a, b, c] = moved(i, target);
     const int inside = orient3d(a, b, c, middle_);
@@ -137,15 +159,27 @@ void Fan::start_at_smallest() {
   std::rotate(spokes_.begin(), spokes_.begin() + static_cast<std::ptrdiff_t>(first), spokes_.end());
 }
 
-bool Fan::look_along_normal() {
+bool Fan::find_normal() {
+  std::vector<Vec3>& normals = face_normals_;
+  normals.clear();
   normal_ = {};
-  for (std::size_t i = 0; i < size(); ++i) {
-    const Vec3 area = cross(minus(place(i), middle_), minus(place(after(i)), middle_));
-    for (std::size_t axis = 0; axis < 3; ++axis) normal_[axis] += area[axis];
+  for (std::size_t i = 0; i < faces(); ++i) {
+    normals.push_back(cross(minus(place(i), middle_), minus(place(after(i)), middle_)));
+    normal_ = along(normal_, 1, normals.back());
   }
-  const double magnitude = length(normal_);
-  if (!(magnitude > 0)) return false;
-  for (double& x : normal_) x /= magnitude;
+  if (!make_unit(normal_) || !std::ranges::all_of(normals, make_unit)) return false;
+  for (int turn = 0; turn < most_turns; ++turn) {
+    const auto worst = std::ranges::min_element(
+        normals, {}, [this](const Vec3& normal) { return dot(normal, normal_); });
+    if (dot(*worst, normal_) > least_facing) return true;
+    normal_ = along(normal_, turning, *worst);
+    if (!make_unit(normal_)) return false;
+  }
+  return true;  // it may do
+}
+
+bool Fan::look_along_normal() {
+  if (!find_normal()) return false;
   const Vec3 x_axis = across(normal_);
   const Vec3 y_axis = cross(normal_, x_axis);
   extent_ = 0;
@@ -154,16 +188,18 @@ bool Fan::look_along_normal() {
     spoke.seen = {dot(way, x_axis), dot(way, y_axis), dot(way, normal_)};
     extent_ = std::max({extent_, std::abs(way[0]), std::abs(way[1]), std::abs(way[2])});
   }
-  int turns = 0;
-  for (std::size_t i = 0; i < size(); ++i) {
-    if (!(area(seen(i), seen(after(i))) > 0)) return false;
-    if (seen(i)[1] < 0 && seen(after(i))[1] >= 0) ++turns;
+  double turn = 0;
+  for (std::size_t i = 0; i < faces(); ++i) {
+    const double sine = area(seen(i), seen(after(i)));
+    if (!(sine > 0)) return false;
+    turn += std::atan2(sine, seen(i)[0] * seen(after(i))[0] + seen(i)[1] * seen(after(i))[1]);
   }
-  return turns == 1;
+  // Around a closed fan it is a multiple of a full turn, but for rounding.
+  return turn < (is_open_ ? 2 : 3) * std::numbers::pi;
 }
 
 bool Fan::keeps_sides(std::size_t target) const {
-  for (std::size_t i = 0; i < size(); ++i) {
+  for (std::size_t i = 0; i < faces(); ++i) {
     if (vanishes(i, target)) continue;
     const std::size_t j = after(i);
     if (!(area(seen(target), seen(i), seen(j)) > 0)) return false;
@@ -177,7 +213,7 @@ bool Fan::keeps_sides(std::size_t target) const {
 double Fan::distance_at_middle(std::size_t target) const {
   double most_inside = -infinity;
   double height = infinity;
-  for (std::size_t i = 0; i < size(); ++i) {
+  for (std::size_t i = 0; i < faces(); ++i) {
     if (vanishes(i, target)) continue;
     const Vec3& a = seen(target);
     const Vec3& b = seen(i);
@@ -192,6 +228,14 @@ double Fan::distance_at_middle(std::size_t target) const {
   return std::abs(height);
 }
 
+double Fan::distance_at_rim() const {
+  const Vec3& a = spokes_.front().place;
+  const Vec3 way = minus(spokes_.back().place, a);
+  const double whole = squared_length(way);
+  const double share = whole > 0 ? std::clamp(dot(minus(middle_, a), way) / whole, 0.0, 1.0) : 0;
+  return length(minus(middle_, along(a, share, way)));
+}
+
 double Fan::distance_at_crossings(std::size_t target) const {
   double most = 0;
   for (std::size_t j = 0; j < size(); ++j) {
@@ -203,7 +247,8 @@ double Fan::distance_at_crossings(std::size_t target) const {
 }
 
 bool Fan::changes_nothing(std::size_t target) const {
-  for (std::size_t i = 0; i < size(); ++i)
+  if (is_open_ && !collinear(middle_, place(0), place(size() - 1))) return false;
+  for (std::size_t i = 0; i < faces(); ++i)
     if (!vanishes(i, target) && orient3d(middle_, place(i), place(after(i)), place(target)) != 0)
       return false;
   return true;

@@ -11,12 +11,20 @@
 namespace loft {
 
 /// The faces around a vertex, and what becomes of them when the vertex moves into a neighbour.
+/// At a vertex on a rim the fan is open: its first and its last neighbour are on the rim.
 class Fan {
  public:
-  /// Reads the faces around v; whether they are a closed fan that can be seen as a whole.
+  /// Reads the faces around v; whether they are one fan that can be seen as a whole.
   bool read(const Surface& surface, Surface::VertexHandle v);
 
+  /// The number of neighbours.
   [[nodiscard]] std::size_t size() const { return spokes_.size(); }
+  [[nodiscard]] std::size_t faces() const { return is_open_ ? size() - 1 : size(); }
+  [[nodiscard]] bool is_open() const { return is_open_; }
+  /// A rim follows its own line: its vertices move along it only.
+  [[nodiscard]] bool may_move_into(std::size_t target) const {
+    return !is_open_ || target == 0 || target + 1 == size();
+  }
   [[nodiscard]] const Vec3& middle() const { return middle_; }
   [[nodiscard]] Surface::HalfedgeHandle halfedge(std::size_t i) const {
     return spokes_[i].halfedge;
@@ -42,13 +50,16 @@ class Fan {
   [[nodiscard]] bool sweeps(std::size_t target, const Corners& t) const;
 
   /// How far the map along the normal moves a point when the middle moves into neighbour `target`;
-  /// infinite if a face would turn over.
+  /// infinite if a face would turn over. On a rim, the map along the normal and across the rim.
   [[nodiscard]] double distance(std::size_t target) const;
 
   /// The sine of the smallest angle of the triangles that the faces become.
   [[nodiscard]] double worst_sine(std::size_t target) const;
 
  private:
+  /// The neighbours as they come, counter-clockwise.
+  void collect(const Surface& surface, Surface::VertexHandle v);
+
   /// Vertices with more neighbours stay: the effort grows with the cube of their number.
   static constexpr std::size_t largest_fan = 64;
 
@@ -72,8 +83,12 @@ class Fan {
   /// Sums over the fan are rounded in one order, whatever the vertices' numbers.
   void start_at_smallest();
 
-  /// Turns the neighbours so that the mean normal is z; whether each face is seen from its front,
-  /// and each place once.
+  /// A direction along which each face is seen from its front: the mean of the normals by area, or
+  /// else one turned towards the faces that are not seen; whether there is one.
+  bool find_normal();
+
+  /// Turns the neighbours so that the normal is z; whether each face is seen from its front, and
+  /// each place once.
   bool look_along_normal();
 
   [[nodiscard]] const Vec3& seen(std::size_t i) const { return spokes_[i].seen; }
@@ -84,6 +99,9 @@ class Fan {
   /// Between the middle, at height 0, and the new triangle over or under it.
   [[nodiscard]] double distance_at_middle(std::size_t target) const;
 
+  /// Between the middle and the edge that the rim becomes.
+  [[nodiscard]] double distance_at_rim() const;
+
   /// Between each old edge and each new one that cross, as seen.
   [[nodiscard]] double distance_at_crossings(std::size_t target) const;
 
@@ -92,8 +110,10 @@ class Fan {
 
   Vec3 middle_{};
   Vec3 normal_{};
+  bool is_open_ = false;
   double extent_ = 0;          // the farthest that a neighbour is, along an axis
   std::vector<Spoke> spokes_;  // counter-clockwise
+  std::vector<Vec3> face_normals_;
 };
 
 }  // namespace loft

@@ -2,17 +2,19 @@
 #include "reconstruct/shape/simplify.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <optional>
 #include <queue>
+#include <utility>
 #include <vector>
 
 #include "mesh/face_tree.h"
 #include "mesh/predicates.h"
 #include "mesh/vec3.h"
 #include "reconstruct/shape/fan.h"
+#include "reconstruct/shape/rim_vertices.h"
+#include "reconstruct/shape/witnesses.h"
 
 namespace loft {
 
@@ -42,7 +44,23 @@ class Simplifier {
     versions_.assign(surface_.n_vertices(), 0);
     in_fan_.assign(surface_.n_faces(), 0);
     find_fixed();
+    keep_rims();
+    rank_faces();
     build_tree();
+    remove_vertices();
+    if (std::ranges::find(is_kept_, true) != is_kept_.end()) {  // some may have become needless
+      is_kept_.assign(surface_.n_vertices(), false);
+      remove_vertices();
+    }
+    for (const auto f : surface_.faces())
+      result_.distance = std::max(result_.distance, std::min(moved_[index(f)], tolerance_));
+    surface_.garbage_collection();
+    return result_;
+  }
+
+ private:
+  /// Those that may go, best first.
+  void remove_vertices() {
     for (const auto v : surface_.vertices()) consider(v);
     while (!queue_.empty()) {
       const Entry entry = queue_.top();
@@ -50,18 +68,13 @@ class Simplifier {
       if (entry.version != versions_[index(entry.vertex)]) continue;
       if (collapse(entry.vertex)) shrink_tree();
     }
-    for (const auto f : surface_.faces())
-      result_.distance = std::max(result_.distance, moved_[index(f)]);
-    surface_.garbage_collection();
-    return result_;
   }
 
- private:
   /// A way to remove a vertex.
   struct Target {
     double cost;
     double sine;      // of the smallest angle of the new triangles
-    double distance;  // the bound of the faces after it
+    double distance;  // the mapped distance of the faces after it
     std::size_t at;   // in the fan
   };
   /// A vertex that may be removed, by its best way.
@@ -110,6 +123,31 @@ class Simplifier {
         is_fixed_[index(sorted[i])] = is_fixed_[index(sorted[i - 1])] = true;
   }
 
+  /// Without tolerance nothing is to be chosen: what is on straight edges goes.
+  void keep_rims() {
+    is_kept_ = tolerance_ > 0 ? rim_vertices_to_keep(surface_, tolerance_)
+                              : std::vector<bool>(surface_.n_vertices(), false);
+  }
+
+  /// Numbers of faces by their places, and witnesses for them. Without tolerance none are needed.
+  void rank_faces() {
+    if (tolerance_ == 0) return;
+    std::vector<std::pair<Corners, Face>> sorted;
+    for (const auto f : surface_.faces()) {
+      Corners t = corners(f);
+      std::rotate(t.begin(), std::ranges::min_element(t), t.end());
+      sorted.emplace_back(t, f);
+    }
+    std::ranges::sort(sorted, {}, &std::pair<Corners, Face>::first);
+    rank_of_.assign(surface_.n_faces(), 0);
+    std::vector<Corners> ranked;
+    for (const auto& [t, f] : sorted) {
+      rank_of_[index(f)] = static_cast<std::uint32_t>(ranked.size());
+      ranked.push_back(t);
+    }
+    witnesses_.emplace(std::move(ranked), tolerance_);
+  }
+
   /// Over the faces that are left. Its items are their places in `live_faces_`.
   void build_tree() {
     live_faces_.clear();
@@ -131,13 +169,15 @@ class Simplifier {
   /// The ways to remove a vertex within the tolerance, best first.
   void find_targets(Vertex v) {
     targets_.clear();
-    if (is_fixed_[index(v)] || !fan_.read(surface_, v)) return;
+    if (is_fixed_[index(v)] || is_kept_[index(v)] || !fan_.read(surface_, v)) return;
     double moved = 0;
-    for (std::size_t i = 0; i < fan_.size(); ++i)
+    for (std::size_t i = 0; i < fan_.faces(); ++i)
       moved = std::max(moved, moved_[index(fan_.face(i))]);
     for (std::size_t i = 0; i < fan_.size(); ++i) {
-      const double distance = moved + fan_.distance(i);
-      if (distance > tolerance_) continue;
+      if (!fan_.may_move_into(i)) continue;
+      const double way = fan_.distance(i);
+      if (way > 2 * tolerance_) continue;  // both surfaces are within the tolerance of the first
+      const double distance = moved + way;
       const double sine = fan_.worst_sine(i);
       targets_.push_back({cost(distance, sine), sine, distance, i});
     }
@@ -160,7 +200,7 @@ class Simplifier {
     find_targets(v);
     for (const Target& target : targets_) {
       if (!surface_.is_collapse_ok(fan_.halfedge(target.at)) || folds(target.at) ||
-          !meets_nothing(target.at) || !sweeps_nothing(target.at))
+          !stays_near(target.at) || !meets_nothing(target.at) || !sweeps_nothing(target.at))
         continue;
       apply(target);
       return true;
@@ -173,7 +213,7 @@ class Simplifier {
     const auto normal = [](const Corners& t) {
       return cross(minus(t[1], t[0]), minus(t[2], t[0]));
     };
-    for (std::size_t i = 0; i < fan_.size(); ++i) {
+    for (std::size_t i = 0; i < fan_.faces(); ++i) {
       if (fan_.vanishes(i, target)) continue;
       const Halfedge rim = surface_.next_halfedge_handle(fan_.halfedge(i));
       const Halfedge outer = surface_.opposite_halfedge_handle(rim);
@@ -185,12 +225,30 @@ class Simplifier {
     return false;
   }
 
+  /// Whether both surfaces stay within the tolerance of each other.
+  bool stays_near(std::size_t target) {
+    if (!witnesses_) return true;
+    gone_.clear();
+    made_.clear();
+    beside_.clear();
+    for (std::size_t i = 0; i < fan_.faces(); ++i) {
+      const std::uint32_t rank = rank_of_[index(fan_.face(i))];
+      gone_.push_back(rank);
+      if (!fan_.vanishes(i, target)) made_.push_back({rank, fan_.moved(i, target)});
+      const Halfedge rim = surface_.next_halfedge_handle(fan_.halfedge(i));
+      const Halfedge outer = surface_.opposite_halfedge_handle(rim);
+      if (!surface_.is_boundary(outer))
+        beside_.push_back(rank_of_[index(surface_.face_handle(outer))]);
+    }
+    return witnesses_->keeps_near(gone_, made_, beside_);
+  }
+
   /// Whether the new triangles are none without area and touch each other and the faces outside
   /// the fan in common corners and edges only (exact).
   bool meets_nothing(std::size_t target) {
     ++fan_number_;
     triangles_.clear();
-    for (std::size_t i = 0; i < fan_.size(); ++i) {
+    for (std::size_t i = 0; i < fan_.faces(); ++i) {
       in_fan_[index(fan_.face(i))] = fan_number_;
       if (!fan_.vanishes(i, target)) triangles_.push_back(fan_.moved(i, target));
     }
@@ -225,20 +283,24 @@ class Simplifier {
 
   void apply(const Target& target) {
     const std::size_t at = target.at;
-    const std::array gone{fan_.face(at), fan_.face(fan_.before(at))};
     neighbours_.clear();
     faces_.clear();
-    for (std::size_t i = 0; i < fan_.size(); ++i) {
+    for (std::size_t i = 0; i < fan_.size(); ++i)
       neighbours_.push_back(surface_.to_vertex_handle(fan_.halfedge(i)));
-      if (!fan_.vanishes(i, at)) faces_.push_back(fan_.face(i));
+    for (std::size_t i = 0; i < fan_.faces(); ++i) {
+      if (!fan_.vanishes(i, at)) {
+        faces_.push_back(fan_.face(i));
+        continue;
+      }
+      tree_->remove(item_of_[index(fan_.face(i))]);
+      --live_count_;
     }
     surface_.collapse(fan_.halfedge(at));
-    for (const Face face : gone) tree_->remove(item_of_[index(face)]);
+    if (witnesses_) witnesses_->replace(gone_, made_);
     for (const Face face : faces_) {
       moved_[index(face)] = target.distance;
       tree_->update(item_of_[index(face)], box(corners(face)));
     }
-    live_count_ -= gone.size();
     ++result_.removed_vertices;
     for (const Vertex neighbour : neighbours_) consider(neighbour);
   }
@@ -246,10 +308,14 @@ class Simplifier {
   Surface& surface_;
   double tolerance_;
   Simplification result_;
-  std::vector<double> moved_;   // of each face: how far its points are from where they were
+  std::vector<double> moved_;   // of each face: how far successive maps may have moved its points
   std::vector<bool> is_fixed_;  // of each vertex
+  std::vector<bool> is_kept_;   // of each vertex: on a rim, until others are removed
   std::vector<std::uint32_t> versions_;  // of each vertex: entries of other versions are outdated
   std::priority_queue<Entry> queue_;
+
+  std::optional<Witnesses> witnesses_;
+  std::vector<std::uint32_t> rank_of_;  // of each face: its number among the witnesses
 
   std::optional<FaceTree> tree_;
   std::vector<Face> live_faces_;        // of each item of the tree
@@ -262,6 +328,9 @@ class Simplifier {
   std::vector<Corners> triangles_;
   std::vector<Vertex> neighbours_;
   std::vector<Face> faces_;
+  std::vector<std::uint32_t> gone_;
+  std::vector<Witnesses::Made> made_;
+  std::vector<std::uint32_t> beside_;
   std::vector<std::uint32_t> in_fan_;  // of each face: the number of the last fan that it was in
   std::uint32_t fan_number_ = 0;
 };
