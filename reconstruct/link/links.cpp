@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/box_tree.h"
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/replace.h"
 
@@ -34,6 +35,8 @@ constexpr std::size_t least_pairs = 1'000'000;
 /// prediction may be, besides its share of the shift.
 constexpr double farthest_predicted = 4;
 constexpr double farthest_near = 2;
+/// Boxes for these are larger by that share of all that is in them: they must not miss a pair.
+constexpr double rounding_of_reach = 0x1p-40;
 constexpr double most_error = 0.5;
 constexpr double most_error_of_shift = 0.25;
 constexpr double least_likeness = 0.5;  // of areas
@@ -249,16 +252,20 @@ class Matching {
   void find_pairs() {
     std::erase_if(lower_, [this](const End& end) { return is_closing(end); });
     std::erase_if(upper_, [this](const End& end) { return is_closing(end); });
-    const auto x = [](const End& end) { return end.footprint->centroid.x; };
-    std::ranges::sort(upper_, {}, x);
-    double largest = 0;
-    for (const End& end : upper_) largest = std::max(largest, end.radius);
-    for (std::size_t i = 0; i < lower_.size(); ++i) {
-      const double reach = farthest_predicted * (lower_[i].radius + largest);
-      auto first = std::ranges::lower_bound(upper_, x(lower_[i]) - reach, {}, x);
-      for (; first != upper_.end() && x(*first) <= x(lower_[i]) + reach; ++first)
-        consider(i, static_cast<std::size_t>(first - upper_.begin()));
-    }
+    std::ranges::sort(upper_, {}, [](const End& end) { return end.footprint->centroid.x; });
+    std::vector<Box3> boxes;
+    for (const End& end : upper_) boxes.push_back(reach(end));
+    const BoxTree tree(boxes);
+    for (std::size_t i = 0; i < lower_.size(); ++i)
+      tree.for_each_meeting(reach(lower_[i]), [&](std::uint32_t j) { consider(i, j); });
+  }
+
+  /// Two ends that may be a pair meet in these.
+  [[nodiscard]] static Box3 reach(const End& end) {
+    const auto [x, y] = end.footprint->centroid;
+    const double way = std::max(farthest_predicted, farthest_near) * end.radius;
+    const double more = way + rounding_of_reach * (way + std::abs(x) + std::abs(y));
+    return {{x - more, y - more, 0}, {x + more, y + more, 0}};
   }
 
   void consider(std::size_t i, std::size_t j) {
