@@ -20,6 +20,16 @@ StackSize size_of(const std::vector<Slice>& stack, const std::optional<std::stri
   return size;
 }
 
+StackSize size_of(const std::vector<Slice>& stack, std::span<const ContourId> contours) {
+  StackSize size;
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    ++size.contours;
+    size.vertices += stack[contours[i].slice].contours[contours[i].contour].points.size();
+    if (i == 0 || contours[i].slice != contours[i - 1].slice) ++size.slices;
+  }
+  return size;
+}
+
 const char* name(Fill fill) {
   switch (fill) {
     case Fill::even_odd:

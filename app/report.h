@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -26,6 +27,9 @@ struct StackSize {
 /// The contours with this label; all contours where it is not set.
 [[nodiscard]] StackSize size_of(const std::vector<Slice>& stack,
                                 const std::optional<std::string>& label = std::nullopt);
+/// Of some contours, in order.
+[[nodiscard]] StackSize size_of(const std::vector<Slice>& stack,
+                                std::span<const ContourId> contours);
 
 /// `1,234,567`
 [[nodiscard]] std::string grouped(std::size_t number);

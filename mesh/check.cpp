@@ -9,9 +9,9 @@
 
 #include "mesh/adjacency.h"
 #include "mesh/admitted.h"
-#include "mesh/box_tree.h"
 #include "mesh/nesting.h"
 #include "mesh/predicates.h"
+#include "mesh/triangle_pairs.h"
 
 namespace loft {
 
@@ -141,22 +141,17 @@ void find_nonmanifold_vertices(const Mesh& mesh, std::span<const std::uint32_t> 
 
 // --- Geometry ---
 
-BoxTree tree_of(const Mesh& mesh, std::span<const std::uint32_t> faces) {
-  std::vector<Box3> boxes;
-  boxes.reserve(faces.size());
-  for (const std::uint32_t face : faces) {
-    const auto [a, b, c] = corners(mesh, face);
-    boxes.push_back(box_around(a, b, c));
-  }
-  return BoxTree(boxes);
-}
-
 /// The pairs of faces that meet, in order; of too many those that were found first.
-std::vector<FacePair> meeting_faces(const Mesh& mesh, std::span<const std::uint32_t> faces,
-                                    const BoxTree& tree) {
+std::vector<FacePair> meeting_faces(const Mesh& mesh, std::span<const std::uint32_t> faces) {
+  std::vector<Corners> places;
+  std::vector<TrianglePairs::Vertices> vertices;
+  for (const std::uint32_t face : faces) {
+    places.push_back(corners(mesh, face));
+    vertices.push_back(mesh.faces[face]);
+  }
   std::vector<FacePair> result;
   const std::size_t most = most_intersections(mesh);
-  tree.all_of_pairs([&](std::uint32_t i, std::uint32_t j) {
+  TrianglePairs(places, vertices, mesh.points.size()).all_of([&](std::uint32_t i, std::uint32_t j) {
     const auto [f, g] = std::minmax({faces[i], faces[j]});
     if (triangles_meet(corners(mesh, f), corners(mesh, g))) result.emplace_back(f, g);
     return result.size() < most;
@@ -247,11 +242,10 @@ std::vector<Finding> check(const Mesh& mesh) {
   find_edges(Fault::inconsistent_edge, edges, findings,
              [&](auto sides) { return is_inconsistent(mesh, sides); });
 
-  const BoxTree tree = tree_of(mesh, with_area);
-  const std::vector<FacePair> meeting = meeting_faces(mesh, with_area, tree);
+  const std::vector<FacePair> meeting = meeting_faces(mesh, with_area);
   if (meeting.size() < most_intersections(mesh)) {
     const auto component = shell_components(mesh, edges, proper, meeting);
-    find_inside_out(shells(mesh, component, with_area, tree), findings);
+    find_inside_out(shells(mesh, component, with_area), findings);
   }
   for (const auto& [f, g] : meeting) findings.push_back({Fault::self_intersection, {f, g}, {}});
   return findings;

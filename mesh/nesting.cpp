@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "cdt/expansion.h"
+#include "mesh/box_tree.h"
 #include "mesh/predicates.h"
 
 namespace loft {
@@ -142,6 +143,16 @@ bool is_above(const Corners& face, const Vec3& place) {
   return orient3d(face[0], face[1], face[2], place) == -turn;
 }
 
+BoxTree tree_of(const Mesh& mesh, std::span<const std::uint32_t> faces) {
+  std::vector<Box3> boxes;
+  boxes.reserve(faces.size());
+  for (const std::uint32_t face : faces) {
+    const auto [a, b, c] = corners(mesh, face);
+    boxes.push_back(box_around(a, b, c));
+  }
+  return BoxTree(boxes);
+}
+
 /// How many shells other than `self` have the place inside: an odd number of faces above it.
 std::uint32_t depth(const Mesh& mesh, const Membership& membership, std::uint32_t self,
                     const Vec3& place, std::span<const std::uint32_t> faces, const BoxTree& tree) {
@@ -165,11 +176,12 @@ std::uint32_t depth(const Mesh& mesh, const Membership& membership, std::uint32_
 }  // namespace
 
 std::vector<Shell> shells(const Mesh& mesh, std::span<const std::uint32_t> component,
-                          std::span<const std::uint32_t> faces, const BoxTree& tree) {
+                          std::span<const std::uint32_t> faces) {
   Membership membership = collect_shells(component);
   measure_volumes(mesh, membership);
   if (membership.shells.size() < 2) return membership.shells;
   const std::vector<std::uint32_t> own = own_vertices(mesh, membership);
+  const BoxTree tree = tree_of(mesh, faces);
   for (std::uint32_t s = 0; s < own.size(); ++s) {
     Shell& shell = membership.shells[s];
     const Vec3 place =

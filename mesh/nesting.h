@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "mesh/box_tree.h"
 #include "mesh/mesh.h"
 
 namespace loft {
@@ -23,13 +22,13 @@ inline constexpr std::uint32_t not_in_a_shell = 0xffff'ffff;
 
 /// The shells of a mesh, in the order of their first faces.
 /// `component` holds for each face the first face of its component, or not_in_a_shell; `faces` are
-/// the faces with an area, those that the boxes of `tree` stand for, in their order.
+/// the faces with an area.
 /// Whether a shell is inside another one is decided exactly, at a corner that it does not share
 /// with others (where there is none: at the rounded middle of a face).
 /// Precondition: shells meet in common corners and edges only. Otherwise the depth is that of the
 /// one corner.
-/// Cost: O(n log n), and a search in the tree a shell.
+/// Cost: O(n log n), and a search in a tree of the faces a shell.
 [[nodiscard]] std::vector<Shell> shells(const Mesh& mesh, std::span<const std::uint32_t> component,
-                                        std::span<const std::uint32_t> faces, const BoxTree& tree);
+                                        std::span<const std::uint32_t> faces);
 
 }  // namespace loft

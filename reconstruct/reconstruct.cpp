@@ -2,6 +2,8 @@
 #include "reconstruct/reconstruct.h"
 
 #include <algorithm>
+#include <cassert>
+#include <functional>
 #include <iterator>
 #include <mutex>
 #include <optional>
@@ -99,17 +101,18 @@ class Reporter {
   std::mutex mutex_;
 };
 
-std::vector<Region> clean_all(std::span<const Slice> slices, std::span<const Height> heights,
-                              const Options& options, std::vector<Defect>& repairs,
-                              const Progress& progress) {
+/// Cleans what is at one height.
+using Clean =
+    std::function<Region(const Height&, std::vector<Defect>& repairs, cdt::Triangulation& memory)>;
+
+std::vector<Region> clean_all(std::span<const Height> heights, unsigned threads, const Clean& clean,
+                              std::vector<Defect>& repairs, const Progress& progress) {
   Reporter reporter(progress, Stage::clean, heights.size());
   std::vector<Region> regions(heights.size());
   std::vector<std::vector<Defect>> found(heights.size());
-  std::vector<cdt::Triangulation> memories(thread_count(options.threads));
-  for_each_index(heights.size(), options.threads, [&](std::size_t i, unsigned worker) {
-    std::vector<const Slice*> parts;
-    for (const std::uint32_t s : heights[i].slices) parts.push_back(&slices[s]);
-    regions[i] = clean(heights[i], parts, options, found[i], memories[worker]);
+  std::vector<cdt::Triangulation> memories(thread_count(threads));
+  for_each_index(heights.size(), threads, [&](std::size_t i, unsigned worker) {
+    regions[i] = clean(heights[i], found[i], memories[worker]);
     reporter.add_step();
   });
   for (auto& some : found) std::ranges::move(some, std::back_inserter(repairs));
@@ -202,14 +205,8 @@ void check_enough(std::span<const Region> regions) {
   if (regions.size() < 2) throw too_few_slices(regions.empty() ? nullptr : &regions.front());
 }
 
-}  // namespace
-
-Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_options,
-                          const Progress& progress) {
-  require_usable(all_options);
-  if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
-  OneLabel one_label(all_options.label);
-  for (const Slice& slice : slices) one_label.add(slice);
+Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean_height,
+                               const Options& all_options, const Progress& progress) {
   if (const auto problems = find_bad_orders(slices, all_options.links); !problems.empty())
     throw InputError(in_lines(problems));
   Options options = all_options;
@@ -218,7 +215,8 @@ Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_opti
   std::vector<double> z;
   for (const Slice& slice : slices) z.push_back(slice.z);
   const auto heights = find_heights(z, options.height_tolerance, repairs);
-  auto regions = trim(clean_all(slices, heights, options, repairs, progress), repairs);
+  auto regions =
+      trim(clean_all(heights, options.threads, clean_height, repairs, progress), repairs);
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
   std::vector<Refusal> refusals;
@@ -242,6 +240,36 @@ Reconstructed reconstruct(std::span<const Slice> slices, const Options& all_opti
     simplifying.add_step();
   }
   return result;
+}
+
+}  // namespace
+
+Reconstructed reconstruct(std::span<const Slice> slices, const Options& options,
+                          const Progress& progress) {
+  require_usable(options);
+  if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  OneLabel one_label(options.label);
+  for (const Slice& slice : slices) one_label.add(slice);
+  const auto clean_height = [&](const Height& height, std::vector<Defect>& repairs,
+                                cdt::Triangulation& memory) {
+    std::vector<const Slice*> parts;
+    for (const std::uint32_t s : height.slices) parts.push_back(&slices[s]);
+    return clean(height, parts, options, repairs, memory);
+  };
+  return reconstruct_from(slices, clean_height, options, progress);
+}
+
+Reconstructed reconstruct(std::span<const Slice> slices, const ContoursByLabel& contours,
+                          const Options& options, const Progress& progress) {
+  assert(options.label);
+  require_usable(options);
+  if (!contours.unusable().empty()) throw InputError(contours.unusable());
+  const std::span<const ContourId> wanted = contours.of(*options.label);
+  const auto clean_height = [&](const Height& height, std::vector<Defect>& repairs,
+                                cdt::Triangulation& memory) {
+    return clean(height, slices, wanted, options, repairs, memory);
+  };
+  return reconstruct_from(slices, clean_height, options, progress);
 }
 
 std::vector<std::string> labels(std::span<const Slice> slices) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "reconstruct/contours_by_label.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/link/link_report.h"
 #include "reconstruct/options.h"
@@ -51,6 +52,13 @@ class Cancelled : public Error {
 /// that ask for too many triangles (split_long_edges()). Cost: O(n log n) for n contour points, in
 /// practice; memory in proportion to the result.
 [[nodiscard]] Reconstructed reconstruct(std::span<const Slice> slices, const Options& options = {},
+                                        const Progress& progress = {});
+
+/// The same for Options::label, which has to be set, where `contours` are those of the stack: for
+/// many labels in turn, each of which then costs what its own contours do, and its share of
+/// heights.
+[[nodiscard]] Reconstructed reconstruct(std::span<const Slice> slices,
+                                        const ContoursByLabel& contours, const Options& options,
                                         const Progress& progress = {});
 
 /// The labels in a stack, sorted, each once; a contour without label counts as "".

@@ -89,10 +89,12 @@ void check_outputs(const ReconstructCommand& command) {
 
 struct Result {
   /// Made in its place, and stays there: an OpenMesh mesh cannot be moved, only copied.
-  Result(const std::vector<Slice>& stack, const Options& options, Follower& follower)
-      : made(reconstruct(stack, options, std::ref(follower))) {
+  Result(const std::vector<Slice>& stack, const ContoursByLabel& contours, const Options& options,
+         Follower& follower)
+      : made(options.label ? reconstruct(stack, contours, options, std::ref(follower))
+                           : reconstruct(stack, options, std::ref(follower))) {
     report.label = options.label.value_or("");
-    report.input = size_of(stack, options.label);
+    report.input = size_of(stack, contours.of(report.label));
     report.seconds = follower.finish();
     report.vertices_of_kind = count_kinds(made.surface);
     report.repairs = std::move(made.repairs);
@@ -107,7 +109,8 @@ struct Result {
 std::list<Result> reconstruct_all(const ReconstructCommand& command,
                                   const std::vector<Slice>& stack, const Options& all_options,
                                   Terminal& terminal, std::vector<SkippedLabel>& skipped) {
-  std::vector<std::string> names = labels(stack);
+  const ContoursByLabel contours(stack);
+  std::vector<std::string> names = contours.labels();
   if (names.empty()) names.emplace_back();
   for (const path& output : command.outputs) check_labels_fit(names.size(), output);
   const bool is_labelled = names.size() > 1 || !names[0].empty();
@@ -120,7 +123,7 @@ std::list<Result> reconstruct_all(const ReconstructCommand& command,
     if (is_labelled) options.label = names[i];
     Follower follower(terminal, names[i], share * static_cast<double>(i), share);
     try {
-      Result& result = results.emplace_back(stack, options, follower);
+      Result& result = results.emplace_back(stack, contours, options, follower);
       if (is_measured) result.report.measures = measure(result.made.surface);
     } catch (const InputError& error) {
       problems.add(names[i], error);

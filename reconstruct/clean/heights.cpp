@@ -93,6 +93,18 @@ std::vector<Height> find_heights(std::span<const double> z, double tolerance,
   return heights;
 }
 
+namespace {
+
+Region clean(const Height& height, std::span<const ContourSource> contours, const Options& options,
+             std::vector<Defect>& repairs, cdt::Triangulation& memory) {
+  Region region = clean(contours, height.z,
+                        {options.fill, options.keyhole_width, options.tolerance}, repairs, memory);
+  region.slice = height.slices.front();
+  return region;
+}
+
+}  // namespace
+
 Region clean(const Height& height, std::span<const Slice* const> parts, const Options& options,
              std::vector<Defect>& repairs, cdt::Triangulation& memory) {
   std::vector<ContourSource> contours;
@@ -102,10 +114,17 @@ Region clean(const Height& height, std::span<const Slice* const> parts, const Op
       if (!options.label || all[c].label == *options.label)
         contours.push_back({all[c].points, height.slices[i], c});
   }
-  Region region = clean(contours, height.z,
-                        {options.fill, options.keyhole_width, options.tolerance}, repairs, memory);
-  region.slice = height.slices.front();
-  return region;
+  return clean(height, contours, options, repairs, memory);
+}
+
+Region clean(const Height& height, std::span<const Slice> stack,
+             std::span<const ContourId> contours, const Options& options,
+             std::vector<Defect>& repairs, cdt::Triangulation& memory) {
+  std::vector<ContourSource> found;
+  for (const std::uint32_t slice : height.slices)
+    for (const ContourId& id : std::ranges::equal_range(contours, slice, {}, &ContourId::slice))
+      found.push_back({stack[slice].contours[id.contour].points, slice, id.contour});
+  return clean(height, found, options, repairs, memory);
 }
 
 Defect empty_slice(const Region& region) {

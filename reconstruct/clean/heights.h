@@ -35,6 +35,11 @@ struct Height {
                            const Options& options, std::vector<Defect>& repairs,
                            cdt::Triangulation& memory);
 
+/// The same, with the contours wanted known: `contours` are those of the stack, in order.
+[[nodiscard]] Region clean(const Height& height, std::span<const Slice> stack,
+                           std::span<const ContourId> contours, const Options& options,
+                           std::vector<Defect>& repairs, cdt::Triangulation& memory);
+
 /// The warning that a region between others is empty.
 [[nodiscard]] Defect empty_slice(const Region& region);
 /// The warning that no tiles were found that link a region to the next one above.

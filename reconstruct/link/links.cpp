@@ -35,6 +35,8 @@ constexpr std::size_t least_pairs = 1'000'000;
 /// prediction may be, besides its share of the shift.
 constexpr double farthest_predicted = 4;
 constexpr double farthest_near = 2;
+/// Boxes for these are larger by that share of all that is in them: they must not miss a pair.
+constexpr double rounding_of_reach = 0x1p-40;
 constexpr double most_error = 0.5;
 constexpr double most_error_of_shift = 0.25;
 constexpr double least_likeness = 0.5;  // of areas
@@ -252,20 +254,18 @@ class Matching {
     std::erase_if(upper_, [this](const End& end) { return is_closing(end); });
     std::ranges::sort(upper_, {}, [](const End& end) { return end.footprint->centroid.x; });
     std::vector<Box3> boxes;
-    boxes.reserve(upper_.size());
-    for (const End& end : upper_) boxes.push_back(surroundings(end));
+    for (const End& end : upper_) boxes.push_back(reach(end));
     const BoxTree tree(boxes);
     for (std::size_t i = 0; i < lower_.size(); ++i)
-      tree.for_each_meeting(surroundings(lower_[i]), [&](std::uint32_t j) { consider(i, j); });
+      tree.for_each_meeting(reach(lower_[i]), [&](std::uint32_t j) { consider(i, j); });
   }
 
-  /// Of two ends near enough to belong together these meet: each has its share of how far a part
-  /// may go, and a little for rounding.
-  [[nodiscard]] static Box3 surroundings(const End& end) {
-    const Point p = end.footprint->centroid;
-    const double reach =
-        farthest_predicted * end.radius + 1e-12 * (std::abs(p.x) + std::abs(p.y) + end.radius);
-    return {{p.x - reach, p.y - reach, 0}, {p.x + reach, p.y + reach, 0}};
+  /// Two ends that may be a pair meet in these.
+  [[nodiscard]] static Box3 reach(const End& end) {
+    const auto [x, y] = end.footprint->centroid;
+    const double way = std::max(farthest_predicted, farthest_near) * end.radius;
+    const double more = way + rounding_of_reach * (way + std::abs(x) + std::abs(y));
+    return {{x - more, y - more, 0}, {x + more, y + more, 0}};
   }
 
   void consider(std::size_t i, std::size_t j) {

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "mesh/face_tree.h"
 #include "mesh/predicates.h"
+#include "mesh/triangle_tree.h"
 #include "mesh/vec3.h"
 #include "reconstruct/shape/fan.h"
 #include "reconstruct/shape/rim_vertices.h"
@@ -110,8 +110,6 @@ class Simplifier {
             place(surface_.to_vertex_handle(next))};
   }
 
-  [[nodiscard]] static Box3 box(const Corners& t) { return box_around(t[0], t[1], t[2]); }
-
   /// Vertices at the place of another one: parts touch there, and must go on to.
   void find_fixed() {
     is_fixed_.assign(surface_.n_vertices(), false);
@@ -152,13 +150,13 @@ class Simplifier {
   void build_tree() {
     live_faces_.clear();
     item_of_.assign(surface_.n_faces(), 0);
-    std::vector<Box3> boxes;
+    std::vector<Corners> triangles;
     for (const auto f : surface_.faces()) {  // leaves out deleted ones
       item_of_[index(f)] = static_cast<std::uint32_t>(live_faces_.size());
       live_faces_.push_back(f);
-      boxes.push_back(box(corners(f)));
+      triangles.push_back(corners(f));
     }
-    tree_.emplace(boxes);
+    tree_ = TriangleTree(std::move(triangles));
     live_count_ = live_faces_.size();
   }
 
@@ -259,7 +257,7 @@ class Simplifier {
         if (triangles_meet(t, triangles_[j])) return false;
     }
     return std::ranges::all_of(triangles_, [this](const Corners& t) {
-      return tree_->all_of_meeting(box(t), [&](std::uint32_t item) {
+      return tree_.all_of_meeting(t, [&](std::uint32_t item) {
         const Face face = live_faces_[item];
         return in_fan_[index(face)] == fan_number_ || !triangles_meet(t, corners(face));
       });
@@ -269,13 +267,9 @@ class Simplifier {
   /// Whether nothing is where the faces pass through on their way, so that no part
   /// of the surface comes to be on the other side of another part (exact).
   bool sweeps_nothing(std::size_t target) {
-    Box3 box{fan_.middle(), fan_.middle()};
-    for (std::size_t i = 0; i < fan_.size(); ++i)
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        box.low[axis] = std::min(box.low[axis], fan_.place(i)[axis]);
-        box.high[axis] = std::max(box.high[axis], fan_.place(i)[axis]);
-      }
-    return tree_->all_of_meeting(box, [&](std::uint32_t item) {
+    std::vector<Vec3> hull{fan_.middle()};
+    for (std::size_t i = 0; i < fan_.size(); ++i) hull.push_back(fan_.place(i));
+    return tree_.all_of_meeting(hull, [&](std::uint32_t item) {
       const Face face = live_faces_[item];
       return in_fan_[index(face)] == fan_number_ || !fan_.sweeps(target, corners(face));
     });
@@ -292,14 +286,14 @@ class Simplifier {
         faces_.push_back(fan_.face(i));
         continue;
       }
-      tree_->remove(item_of_[index(fan_.face(i))]);
+      tree_.remove(item_of_[index(fan_.face(i))]);
       --live_count_;
     }
     surface_.collapse(fan_.halfedge(at));
     if (witnesses_) witnesses_->replace(gone_, made_);
     for (const Face face : faces_) {
       moved_[index(face)] = target.distance;
-      tree_->update(item_of_[index(face)], box(corners(face)));
+      tree_.update(item_of_[index(face)], corners(face));
     }
     ++result_.removed_vertices;
     for (const Vertex neighbour : neighbours_) consider(neighbour);
@@ -317,7 +311,7 @@ class Simplifier {
   std::optional<Witnesses> witnesses_;
   std::vector<std::uint32_t> rank_of_;  // of each face: its number among the witnesses
 
-  std::optional<FaceTree> tree_;
+  TriangleTree tree_;
   std::vector<Face> live_faces_;        // of each item of the tree
   std::vector<std::uint32_t> item_of_;  // of each face
   std::size_t live_count_ = 0;

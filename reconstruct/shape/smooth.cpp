@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "mesh/box_tree.h"
 #include "mesh/predicates.h"
+#include "mesh/triangle_pairs.h"
 #include "mesh/vec3.h"
 
 namespace loft {
@@ -332,16 +332,17 @@ class Smoothing {
   /// The tiles that are degenerate or meet others elsewhere than in common corners and edges.
   [[nodiscard]] std::vector<bool> find_meeting() const {
     std::vector<Corners> corners;
-    std::vector<Box3> boxes;
+    std::vector<TrianglePairs::Vertices> nodes_of;
     std::vector<bool> is_met(tiles_.tiles.size());
     for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
       const auto& nodes = tiles_.tiles[t].nodes;
       const Corners& c =
           corners.emplace_back(Corners{place(nodes[0]), place(nodes[1]), place(nodes[2])});
-      boxes.push_back(box_around(c[0], c[1], c[2]));
+      nodes_of.push_back(nodes);
       is_met[t] = collinear(c[0], c[1], c[2]);
     }
-    BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+    const std::size_t node_count = contour_count_ + tiles_.inner.size();
+    TrianglePairs(corners, nodes_of, node_count).for_each([&](std::uint32_t i, std::uint32_t j) {
       if ((is_met[i] && is_met[j]) || !triangles_meet(corners[i], corners[j])) return;
       is_met[i] = is_met[j] = true;
     });

@@ -31,15 +31,18 @@ void TileMesh::index_tiles() {
   tiles_at_.assign(contour_count_ + inner_.size(), {});
   for (std::uint32_t t = 0; t < tiles_.size(); ++t)
     for (const std::uint32_t node : tiles_[t].nodes) tiles_at_[node].push_back(t);
-  build_grid();
+  build_tree();
 }
 
-/// The grid's cells fit the tiles of the time when it was made. A removed tile has two nodes left.
-void TileMesh::build_grid() {
-  grid_.emplace(tiles_.size(), [this](std::uint32_t t) {
-    const Nodes& nodes = tiles_[t].nodes;
-    return footprint(places({is_removed(t) ? nodes[1] : nodes[0], nodes[1], nodes[2]}));
-  });
+/// A removed tile has two nodes left, and is no tile.
+void TileMesh::build_tree() {
+  std::vector<Corners> triangles;
+  triangles.reserve(tiles_.size());
+  for (const Tile& tile : tiles_) {
+    const auto& [a, b, c] = tile.nodes;
+    triangles.push_back(places({a == Origin::none ? b : a, b, c}));
+  }
+  tree_ = TriangleTree(std::move(triangles));
   most_notes_ = 2 * tiles_.size();
 }
 
@@ -104,7 +107,7 @@ bool TileMesh::meet_nothing(std::span<const Nodes> triangles, std::span<const Ed
     return std::ranges::any_of(replaced, [=](const EdgeTile& r) { return r.tile == tile; });
   };
   return std::ranges::all_of(corners_, [&](const Corners& corners) {
-    return grid_->all_of_near(footprint(corners), [&](std::uint32_t tile) {
+    return tree_.all_of_meeting(corners, [&](std::uint32_t tile) {
       return is_removed(tile) || is_replaced(tile) ||
              !triangles_meet(corners, places(tiles_[tile].nodes));
     });
@@ -130,12 +133,14 @@ void TileMesh::note_move(std::uint32_t node) {
   for (const std::uint32_t tile : tiles_at(node)) note(tile);
 }
 
-/// Tells the grid where a tile is now; where it was does no harm until there is too much of that.
+/// Tells the tree where a tile is now; boxes around where it was do no harm until there are many.
 void TileMesh::note(std::uint32_t tile) {
   if (most_notes_-- == 0)
-    build_grid();
+    build_tree();
+  else if (tile < tree_.size())
+    tree_.update(tile, places(tiles_[tile].nodes));
   else
-    grid_->add(tile, footprint(places(tiles_[tile].nodes)));
+    tree_.add(places(tiles_[tile].nodes));
 }
 
 void TileMesh::add(const Nodes& nodes, FaceKind kind) {

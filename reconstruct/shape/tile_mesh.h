@@ -4,12 +4,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
 #include "mesh/predicates.h"
-#include "reconstruct/plane/tile_grid.h"
+#include "mesh/triangle_tree.h"
 #include "reconstruct/tile/tiles.h"
 
 namespace loft {
@@ -91,7 +90,7 @@ class TileMesh {
 
  private:
   void index_tiles();
-  void build_grid();
+  void build_tree();
   void note(std::uint32_t tile);
   [[nodiscard]] bool is_removed(std::uint32_t tile) const {
     return tiles_[tile].nodes[0] == Origin::none;
@@ -105,8 +104,8 @@ class TileMesh {
   std::uint32_t contour_count_;
   std::uint32_t first_added_;
   std::vector<std::vector<std::uint32_t>> tiles_at_;  // each node
-  std::optional<TileGrid> grid_;
-  std::size_t most_notes_ = 0;  // until the grid is made anew
+  TriangleTree tree_;
+  std::size_t most_notes_ = 0;  // until the tree is made anew
   std::vector<Corners> corners_;
 };
 

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "cdt/effort.h"
+#include "mesh/box_tree.h"
+#include "mesh/oriented_box.h"
+#include "mesh/predicates.h"
+
+namespace loft {
+
+/// Finds the pairs of triangles that may meet elsewhere than in common corners.
+///
+/// A tree of oriented boxes, so that long thin triangles side by side are told apart. No box tells
+/// triangles apart that have a corner in common; where hundreds have, they are one branch of the
+/// tree, and told apart by the arcs that they show to that corner.
+/// Cost: O(n log n) to build, about 250 bytes a triangle.
+class TrianglePairs {
+ public:
+  using Vertices = std::array<std::uint32_t, 3>;
+
+  /// `vertices`: the numbers of each triangle's corners, below `vertex_count`.
+  TrianglePairs(std::span<const Corners> triangles, std::span<const Vertices> vertices,
+                std::size_t vertex_count);
+
+  /// Whether a test holds for every two triangles of which triangles_meet() may be true, once each;
+  /// stops at the first that fail. Precondition: none is degenerate, else pairs with it may be left
+  /// out.
+  template <class Test>
+  bool all_of(Test test) const {
+    return nodes_.empty() || within(0, test);
+  }
+
+  template <class Visit>
+  void for_each(Visit visit) const {
+    all_of([&](std::uint32_t i, std::uint32_t j) {
+      visit(i, j);
+      return true;
+    });
+  }
+
+ private:
+  static constexpr std::uint32_t leaf_size = 4;
+  static constexpr std::uint32_t none = 0xffff'ffff;
+
+  /// An inner node's first child follows it in nodes_.
+  struct Node {
+    OrientedBox box;
+    std::uint32_t first = 0;  ///< its triangles are items_[first, last)
+    std::uint32_t last = 0;
+    std::uint32_t second = 0;  ///< the second child; 0 in a leaf
+    std::uint32_t fan =
+        none;  ///< the place in fans_ of the arcs of all its triangles, if it is one
+  };
+  struct Item {
+    Box3 box;
+    std::uint32_t index = 0;
+  };
+  struct Fan {
+    BoxTree arcs;
+    std::uint32_t first;  ///< arc i is that of items_[first + i]
+  };
+  class Builder;
+
+  template <class Test>
+  bool within(std::uint32_t node, Test& test) const;
+  template <class Test>
+  bool between(std::uint32_t a, std::uint32_t b, Test& test) const;
+  template <class Test>
+  bool leaves(const Node& a, const Node& b, Test& test) const;
+
+  std::vector<Item> items_;
+  std::vector<Node> nodes_;  ///< root first, parents before children
+  std::vector<Fan> fans_;
+};
+
+template <class Test>
+bool TrianglePairs::within(std::uint32_t node, Test& test) const {
+  const Node& n = nodes_[node];
+  if (n.fan != none) {
+    const Fan& fan = fans_[n.fan];
+    return fan.arcs.all_of_pairs([&](std::uint32_t i, std::uint32_t j) {
+      return test(items_[fan.first + i].index, items_[fan.first + j].index);
+    });
+  }
+  if (n.second != 0)
+    return within(node + 1, test) && within(n.second, test) && between(node + 1, n.second, test);
+  for (std::uint32_t i = n.first; i < n.last; ++i)
+    for (std::uint32_t j = i + 1; j < n.last; ++j)
+      if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))
+        return false;
+  return true;
+}
+
+/// Descends into the node of more triangles first.
+template <class Test>
+bool TrianglePairs::between(std::uint32_t a, std::uint32_t b, Test& test) const {
+  const Node& node_a = nodes_[a];
+  const Node& node_b = nodes_[b];
+  cdt::spend();
+  if (!may_meet(node_a.box, node_b.box)) return true;
+  if (node_a.second == 0 && node_b.second == 0) return leaves(node_a, node_b, test);
+  if (node_b.second == 0 ||
+      (node_a.second != 0 && node_a.last - node_a.first >= node_b.last - node_b.first))
+    return between(a + 1, b, test) && between(node_a.second, b, test);
+  return between(a, b + 1, test) && between(a, node_b.second, test);
+}
+
+template <class Test>
+bool TrianglePairs::leaves(const Node& a, const Node& b, Test& test) const {
+  for (std::uint32_t i = a.first; i < a.last; ++i) {
+    cdt::spend();
+    if (!boxes_meet(items_[i].box, b.box.box())) continue;
+    for (std::uint32_t j = b.first; j < b.last; ++j)
+      if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))
+        return false;
+  }
+  return true;
+}
+
+}  // namespace loft

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+#include "mesh/triangle_pairs.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <random>
+#include <utility>
+#include <vector>
+
+#include "mesh/check.h"
+
+namespace loft {
+namespace {
+
+using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
+
+std::vector<Corners> corners_of(const Mesh& mesh) {
+  std::vector<Corners> result;
+  for (const auto& [a, b, c] : mesh.faces)
+    result.push_back({mesh.points[a], mesh.points[b], mesh.points[c]});
+  return result;
+}
+
+Pairs meeting_by_all_pairs(const std::vector<Corners>& triangles) {
+  Pairs result;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    for (std::uint32_t j = i + 1; j < triangles.size(); ++j)
+      if (triangles_meet(triangles[i], triangles[j])) result.emplace_back(i, j);
+  return result;
+}
+
+/// How many pairs were tested, and which of them meet.
+std::pair<std::size_t, Pairs> meeting_by_tree(const Mesh& mesh) {
+  const std::vector<Corners> triangles = corners_of(mesh);
+  std::size_t tested = 0;
+  Pairs result;
+  TrianglePairs(triangles, mesh.faces, mesh.points.size())
+      .for_each([&](std::uint32_t i, std::uint32_t j) {
+        ++tested;
+        if (triangles_meet(triangles[i], triangles[j])) result.emplace_back(std::minmax({i, j}));
+      });
+  std::ranges::sort(result);
+  return {tested, result};
+}
+
+/// Points of a few hubs, of which all triangles take one: fans that run through each other. On a
+/// lattice, so that many only touch.
+Mesh random_fans(std::mt19937& random, std::uint32_t hubs, std::uint32_t count, double scale) {
+  std::uniform_int_distribution place(0, 60);
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < hubs + count; ++i)
+    mesh.points.push_back({scale * place(random), scale * place(random), scale * place(random)});
+  std::uniform_int_distribution<std::uint32_t> hub(0, hubs - 1);
+  std::uniform_int_distribution<std::uint32_t> other(hubs, hubs + count - 1);
+  while (mesh.faces.size() < count) {
+    const std::array face{hub(random), other(random), other(random)};
+    const auto& p = mesh.points;
+    if (!collinear(p[face[0]], p[face[1]], p[face[2]])) mesh.faces.push_back(face);
+  }
+  return mesh;
+}
+
+/// Long thin triangles between two rings of n points, slanted.
+Mesh slanted_ring(std::uint32_t n) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double at = 2 * std::numbers::pi * i / n;
+    mesh.points.push_back({10 * std::cos(at), 10 * std::sin(at), 0});
+    mesh.points.push_back({11 * std::cos(at + 0.05), 11 * std::sin(at + 0.05), 1});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const std::uint32_t next = (i + 1) % n;
+    mesh.faces.push_back({2 * i, 2 * next, 2 * i + 1});
+    mesh.faces.push_back({2 * i + 1, 2 * next, 2 * next + 1});
+  }
+  return mesh;
+}
+
+/// A cone of n triangles with one apex.
+Mesh cone(std::uint32_t n) {
+  Mesh mesh{{{1, 2, 3}}, {}};
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double at = 2 * std::numbers::pi * i / n;
+    mesh.points.push_back({10 * std::cos(at), 10 * std::sin(at), 0});
+    mesh.faces.push_back({0, 1 + i, 1 + (i + 1) % n});
+  }
+  return mesh;
+}
+
+TEST(TrianglePairs, FindsAllThatMeetInFansThroughEachOther) {
+  constexpr unsigned seed = 31;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (const std::uint32_t hubs : {1U, 3U, 40U}) {
+    for (const std::uint32_t count : {3U, 60U, 400U}) {
+      for (const double scale : {1.0, 1e-90, 1e90, 0.1}) {
+        const Mesh mesh = random_fans(random, hubs, count, scale);
+        const Pairs expected = meeting_by_all_pairs(corners_of(mesh));
+        EXPECT_EQ(meeting_by_tree(mesh).second, expected) << hubs << ' ' << count << ' ' << scale;
+      }
+    }
+  }
+}
+
+TEST(TrianglePairs, FindsTheNeighbourThatABentFanHits) {
+  Mesh mesh = cone(1000);
+  mesh.points[1][2] = 1e-9;
+  mesh.faces.push_back({0, 500, 1});
+  EXPECT_EQ(meeting_by_tree(mesh).second, meeting_by_all_pairs(corners_of(mesh)));
+}
+
+TEST(TrianglePairs, TestsAFewPairsATriangleHoweverThinTheyAre) {
+  for (const std::uint32_t n : {1000U, 8000U}) {
+    EXPECT_LT(meeting_by_tree(slanted_ring(n)).first, 60 * n) << n;
+    EXPECT_LT(meeting_by_tree(cone(n)).first, 20 * n) << n;
+  }
+}
+
+TEST(TrianglePairs, StepsGrowHardlyFasterThanTriangles) {
+  const auto fits = [](const Mesh& mesh, std::uint64_t steps) {
+    const cdt::Effort effort(steps);
+    try {
+      static_cast<void>(meeting_by_tree(mesh));
+    } catch (const cdt::TooMuchEffort&) {
+      return false;
+    }
+    return true;
+  };
+  for (const std::uint32_t n : {1000U, 8000U}) {
+    EXPECT_TRUE(fits(slanted_ring(n), 100 * n)) << n;
+    EXPECT_TRUE(fits(cone(n), 40 * n)) << n;
+  }
+}
+
+TEST(TrianglePairs, StopsAtThePairThatFails) {
+  const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector(50, std::array{0U, 1U, 2U})};
+  int count = 0;
+  const std::vector<Corners> triangles = corners_of(mesh);
+  EXPECT_FALSE(TrianglePairs(triangles, mesh.faces, mesh.points.size())
+                   .all_of([&](std::uint32_t, std::uint32_t) { return ++count < 7; }));
+  EXPECT_EQ(count, 7);
+}
+
+}  // namespace
+}  // namespace loft
