@@ -102,19 +102,22 @@ std::optional<Point> Triangulation::common_crossing(EdgeId e, SegmentId s) const
 /// there by rounding alone; or whether it has to go through a vertex hardly beside this one.
 bool Triangulation::misses_something_at(VertexId v, SegmentId s) const {
   const bool is_end = ends_at(s, v);  // what ends there, too, does not cross s
+  const bool has_crowds = has_crowds_;
   const Point place = point(v);
   const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
+  const auto is_missed = [&](Point beside) {
+    return std::abs(beside.x - place.x) + std::abs(beside.y - place.y) <= near &&
+           rounds_to(point(segment(s).from), point(segment(s).to), beside);
+  };
+  const auto is_missed_along = [&](Passage passage) {
+    return !(is_end && ends_at(passage.segment(), v)) &&
+           crosses_elsewhere(s, passage.segment(), place);
+  };
   const EdgeId first = edge(v);
   EdgeId e = first;
   do {
-    const Point beside = point(to(e));
-    if (has_crowds_ && std::abs(beside.x - place.x) + std::abs(beside.y - place.y) <= near &&
-        rounds_to(point(segment(s).from), point(segment(s).to), beside))
-      return true;
-    for (const Passage passage : passages(e))
-      if (!(is_end && ends_at(passage.segment(), v)) &&
-          crosses_elsewhere(s, passage.segment(), place))
-        return true;
+    if (has_crowds && is_missed(point(to(e)))) return true;
+    if (is_constrained(e) && std::ranges::any_of(passages(e), is_missed_along)) return true;
     e = rotated(e);
   } while (e != first);
   return false;

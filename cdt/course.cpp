@@ -35,7 +35,7 @@ bool Triangulation::belongs_at_apex(EdgeId e, Passage passage) {
 /// Moves the passages of e that belong there to the edges from its ends to its apex.
 bool Triangulation::lead_through_apex(EdgeId e) {
   const VertexId through = apex(e);
-  if (through == infinite) return false;
+  if (through == infinite || !is_boxed(point(from(e)), point(to(e)), point(through))) return false;
   // Mostly there is none that does.
   const auto belongs = [&](Passage passage) { return belongs_at_apex(e, passage); };
   if (std::ranges::none_of(passages(e), belongs)) return false;
@@ -63,17 +63,20 @@ bool Triangulation::settle_around(VertexId v) {
   EdgeId e = first;
   do {
     const EdgeId around = next(e);
-    if (is_constrained(around) && lead_through_apex(around)) {
+    const Point a = point(to(e));
+    const Point b = point(apex(e));
+    if (is_constrained(around) && is_boxed(a, b, place) && lead_through_apex(around)) {
       settle_around(v);
       return false;
     }
-    is_crowded |= is_crowding(point(from(around)), point(to(around)), place) ||
-                  are_hardly_apart(place, point(from(around)), crowded_rounding);
+    if (is_crowding(a, b, place) || are_hardly_apart(place, a, crowded_rounding)) {
+      is_crowded = true;
+      has_crowds_ = has_crowds_ || is_crowding_between(a, b, place);
+    }
     e = rotated(e);
   } while (e != first);
   settle_pieces();
   if (!is_crowded) return true;
-  has_crowds_ = true;
   settle_crowd(v);
   return false;
 }

@@ -99,6 +99,22 @@ inline constexpr int most_detours = 32;
              detail::orient_bound * (std::abs(left) + std::abs(right));
 }
 
+/// Whether p, which is_crowding() the edge ab, does so between a and b or beside them, so that there
+/// may be vertices hardly apart from p: these are its neighbours or behind such an edge.
+[[nodiscard]] inline bool is_crowding_between(Point a, Point b, Point p) {
+  const double margin = 4 * crowded_rounding * std::max(std::abs(p.x), std::abs(p.y));
+  const auto is_within = [&](double from, double to, double x) {
+    return std::min(from, to) - margin <= x && x <= std::max(from, to) + margin;
+  };
+  return is_within(a.x, b.x, p.x) && is_within(a.y, b.y, p.y);
+}
+
+/// Whether no coordinate of p is beyond those of a and b. Nothing else is_ahead() of the one on the
+/// way to the other.
+[[nodiscard]] inline bool is_boxed(Point a, Point b, Point p) {
+  return (p.x - a.x) * (p.x - b.x) <= 0 && (p.y - a.y) * (p.y - b.y) <= 0;
+}
+
 /// Whether q comes after p on the way from a to b, where both are on that line but for correct
 /// rounding, which keeps the order of each coordinate.
 [[nodiscard]] inline bool is_ahead(Point p, Point q, Point a, Point b) {

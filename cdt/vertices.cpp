@@ -325,11 +325,11 @@ void Triangulation::fan_out(VertexId v) {
   const VertexId first = from(edge(t, 0));
   const Point place = point(v);
   const bool has_segments = !segments_.empty();
-  is_surrounded_ = false;
+  bool is_surrounded = false;
   for (;;) {
     const EdgeId e = edge(t, 0);
     if (is_constrained(e)) {
-      is_surrounded_ = true;
+      is_surrounded = true;
     } else {
       const EdgeId f = twin(e);
       const VertexId d = apex(f);
@@ -338,11 +338,14 @@ void Triangulation::fan_out(VertexId v) {
         continue;
       }
     }
-    is_surrounded_ |= has_segments ? is_crowding(point(from(e)), point(to(e)), place)
-                                   : are_hardly_apart(place, point(from(e)), crowded_rounding);
+    if (!is_surrounded)  // settle_around() looks at all of them
+      is_surrounded = has_segments
+                          ? is_crowding(point(from(e)), point(edges_[e.index() + 1].from), place)
+                          : are_hardly_apart(place, point(from(e)), crowded_rounding);
     t = triangle(twin(edge(t, 1)));
     if (from(edge(t, 0)) == first) break;
   }
+  is_surrounded_ = is_surrounded;
 }
 
 /// Turns the edge e between the triangles (a, b, v) and (b, a, d) so that it joins v and d.

@@ -1,28 +1,20 @@
 // SPDX-License-Identifier: MIT
-// Plays the inputs of a fuzz target without libFuzzer.
-//   replay FOLDER...     every file in them; .txt is a script of edits, anything else is bytes
-#include <cstdint>
-#include <cstdio>
-#include <exception>
+//   replay FOLDER...     plays every file in them; .txt is a script of edits, anything else is
+//   bytes
+#include "tests/fuzz/replay.h"
+
 #include <filesystem>
+#include <span>
 #include <stdexcept>
 #include <string>
-#include <vector>
 
 #include "tests/cdt/judge.h"
-#include "tests/fuzz/inputs.h"
-
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size);
 
 namespace {
 
-void replay(const std::filesystem::path& path) {
-  std::printf("%s\n", path.filename().c_str());
-  std::fflush(stdout);
-  const std::string content = loft::fuzz::read(path);
+void play(const std::filesystem::path& path, const std::string& content) {
   if (path.extension() != ".txt") {
-    const std::vector<std::uint8_t> bytes(content.begin(), content.end());
-    LLVMFuzzerTestOneInput(bytes.data(), bytes.size());
+    loft::fuzz::play_bytes(content);
     return;
   }
   loft::cdt::Tally tally;
@@ -33,18 +25,5 @@ void replay(const std::filesystem::path& path) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  try {
-    std::size_t count = 0;
-    for (int i = 1; i < argc; ++i) {
-      for (const auto& file : loft::fuzz::files_in(argv[i])) {
-        replay(file);
-        ++count;
-      }
-    }
-    std::printf("%zu files played\n", count);
-    return count > 0 ? 0 : 1;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
+  return loft::fuzz::replay(std::span(argv, static_cast<std::size_t>(argc)).subspan(1), play);
 }
