@@ -99,8 +99,8 @@ inline constexpr int most_detours = 32;
              detail::orient_bound * (std::abs(left) + std::abs(right));
 }
 
-/// Whether p, which is_crowding() the edge ab, does so between a and b or beside them, so that there
-/// may be vertices hardly apart from p: these are its neighbours or behind such an edge.
+/// Whether p, which is_crowding() the edge ab, does so between a and b or beside them, so that
+/// there may be vertices hardly apart from p: these are its neighbours or behind such an edge.
 [[nodiscard]] inline bool is_crowding_between(Point a, Point b, Point p) {
   const double margin = 4 * crowded_rounding * std::max(std::abs(p.x), std::abs(p.y));
   const auto is_within = [&](double from, double to, double x) {

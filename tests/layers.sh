@@ -15,7 +15,7 @@ wings='
 cdt           cdt/*
 mesh          mesh/*                         cdt
 
-values        reconstruct/{defect,nearest_height,number_text,options,origin,parallel,progress,slice,surface,usable}  mesh
+values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,origin,parallel,progress,slice,surface,usable}  mesh
 moved         reconstruct/{check,measure,mesh}                                    values
 plane         reconstruct/plane/*            values
 clean         reconstruct/clean/*            plane

@@ -17,7 +17,7 @@ constexpr std::size_t pieces_for_each = 16;
 constexpr std::size_t pieces_at_least = 256;
 
 /// Halvings of an edge in search of the place where nearness ends.
-constexpr int halvings = 10;
+constexpr int halvings = 5;
 
 /// A cut nearer to an end than that would leave nearly all of the piece.
 constexpr double least_share = 0.03;
@@ -95,9 +95,11 @@ bool Nearness::all_near(const Corners& whole, std::span<const Corners> others) {
 void Nearness::start(const Corners& whole, std::span<const Corners> others) {
   pieces_.clear();
   candidates_.clear();
+  boxes_.clear();
   const Box3 around = box(whole);
   for (std::size_t i = 0; i < others.size(); ++i) {
-    if (!boxes_are_near(around, box(others[i]), distance_)) continue;
+    boxes_.push_back(box(others[i]));
+    if (!boxes_are_near(around, boxes_.back(), distance_)) continue;
     unsigned near = 0;
     for (std::size_t corner = 0; corner < 3; ++corner)
       if (is_near(whole[corner], others[i])) near |= 1U << corner;
@@ -120,21 +122,20 @@ void Nearness::cut(const Piece& piece, std::span<const Corners> others) {
   const auto bits = [](unsigned near, std::size_t first, std::size_t second, bool third) {
     return (near >> first & 1U) | (near >> second & 1U) << 1U | (third ? 0b100U : 0U);
   };
-  push(piece, {corners[corner], corners[a], middle}, others,
+  push(piece, {corners[corner], corners[a], middle},
        [&](std::size_t i, unsigned near) { return bits(near, corner, a, near_cut_[i]); });
-  push(piece, {corners[corner], corners[b], middle}, others,
+  push(piece, {corners[corner], corners[b], middle},
        [&](std::size_t i, unsigned near) { return bits(near, corner, b, near_cut_[i]); });
 }
 
 template <class Near>
-void Nearness::push(const Piece& old, const Corners& corners, std::span<const Corners> others,
-                    Near near) {
+void Nearness::push(const Piece& old, const Corners& corners, Near near) {
   const std::size_t start = candidates_.size();
   const Box3 around = box(corners);
   for (std::size_t i = 0; i < old.last - old.first; ++i) {
     const Candidate each = candidates_[old.first + i];
     const unsigned bits = near(i, each.near);
-    if (bits != 0 || boxes_are_near(around, box(others[each.triangle]), distance_))
+    if (bits != 0 || boxes_are_near(around, boxes_[each.triangle], distance_))
       candidates_.push_back({each.triangle, bits});
   }
   pieces_.push_back({corners, start, candidates_.size()});

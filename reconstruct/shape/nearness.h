@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "mesh/box3.h"
 #include "mesh/predicates.h"
 
 namespace loft {
@@ -57,7 +58,7 @@ class Nearness {
 
   /// Adds a piece; `near` tells which of its corners a candidate of the old piece is near.
   template <class Near>
-  void push(const Piece& old, const Corners& corners, std::span<const Corners> others, Near near);
+  void push(const Piece& old, const Corners& corners, Near near);
 
   /// The corner whose opposite edge is cut: the longest edge without one triangle near both ends.
   [[nodiscard]] std::size_t corner_of_cut(const Piece& piece) const;
@@ -70,6 +71,7 @@ class Nearness {
   double distance_;
   std::vector<Piece> pieces_;
   std::vector<Candidate> candidates_;
+  std::vector<Box3> boxes_;     // around the other triangles
   std::vector<bool> near_cut_;  // of each candidate of the piece that is cut
   std::vector<std::uint32_t> used_;
 };
