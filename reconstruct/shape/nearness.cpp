@@ -102,7 +102,7 @@ void Nearness::start(const Corners& whole, std::span<const Corners> others) {
     if (!boxes_are_near(around, boxes_.back(), distance_)) continue;
     unsigned near = 0;
     for (std::size_t corner = 0; corner < 3; ++corner)
-      if (is_near(whole[corner], others[i])) near |= 1U << corner;
+      if (is_near(whole[corner], others[i], boxes_[i])) near |= 1U << corner;
     candidates_.push_back({static_cast<std::uint32_t>(i), near});
     if (near == all_corners) break;  // it is enough
   }
@@ -118,7 +118,7 @@ void Nearness::cut(const Piece& piece, std::span<const Corners> others) {
       along(corners[a], share_of_cut(piece, a, others), minus(corners[b], corners[a]));
   near_cut_.clear();
   for (const Candidate& each : candidates(piece))
-    near_cut_.push_back(is_near(middle, others[each.triangle]));
+    near_cut_.push_back(is_near(middle, others[each.triangle], boxes_[each.triangle]));
   const auto bits = [](unsigned near, std::size_t first, std::size_t second, bool third) {
     return (near >> first & 1U) | (near >> second & 1U) << 1U | (third ? 0b100U : 0U);
   };
@@ -173,7 +173,7 @@ double Nearness::share_of_cut(const Piece& piece, std::size_t a,
     if (is_near_a && is_near_b) return 0.5;
     if (!is_near_a && !is_near_b) continue;
     const auto reaches = [&](double share) {
-      return is_near(along(from, share, way), others[each.triangle]);
+      return is_near(along(from, share, way), others[each.triangle], boxes_[each.triangle]);
     };
     double& reach = is_near_a ? reach_of_a : reach_of_b;
     if (!reaches(reach)) continue;  // another one reaches farther

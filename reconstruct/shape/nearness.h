@@ -46,7 +46,10 @@ class Nearness {
   [[nodiscard]] std::span<const Candidate> candidates(const Piece& piece) const {
     return std::span(candidates_).subspan(piece.first, piece.last - piece.first);
   }
-  [[nodiscard]] bool is_near(const Vec3& p, const Corners& triangle) const {
+  [[nodiscard]] bool is_near(const Vec3& p, const Corners& triangle, const Box3& around) const {
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (around.low[axis] - p[axis] > distance_ || p[axis] - around.high[axis] > distance_)
+        return false;
     return squared_distance(p, triangle) <= distance_ * distance_;
   }
 
