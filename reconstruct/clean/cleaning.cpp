@@ -334,9 +334,24 @@ class Cleaning {
     return ahead;
   }
 
-  /// A crossing vertex with nothing left to cross: the region's boundary runs straight on.
-  [[nodiscard]] bool is_left_over(EdgeId before, EdgeId after) const {
-    const VertexId v = mesh_.from(after);
+  using Segments = std::vector<cdt::SegmentId>;
+
+  [[nodiscard]] Segments segments_along(EdgeId e) const {
+    Segments all;
+    for (const cdt::Passage passage : mesh_.passages(e)) all.push_back(passage.segment());
+    return all;
+  }
+
+  [[nodiscard]] static Segments common(const Segments& some, const Segments& others) {
+    Segments both;
+    for (const cdt::SegmentId s : some)
+      if (std::ranges::find(others, s) != others.end()) both.push_back(s);
+    return both;
+  }
+
+  /// A crossing vertex where the region's boundary touches nothing else: it may have nothing left
+  /// to cross.
+  [[nodiscard]] bool may_be_left_over(VertexId v) const {
     if (origins_[v.index()].kind == VertexKind::contour) return false;
     std::size_t boundary_edges = 0;
     const EdgeId first = mesh_.edge(v);
@@ -345,12 +360,7 @@ class Cleaning {
       boundary_edges += is_boundary(e) ? 1U : 0U;
       e = mesh_.rotated(e);
     } while (e != first);
-    const auto in = mesh_.passages(before);
-    return boundary_edges == 1 &&
-           std::ranges::any_of(mesh_.passages(after), [&](cdt::Passage passage) {
-             return std::ranges::any_of(
-                 in, [&](cdt::Passage p) { return p.segment() == passage.segment(); });
-           });
+    return boundary_edges == 1;
   }
 
   Region follow_loops() {
@@ -373,6 +383,11 @@ class Cleaning {
   }
 
   void follow_loop(EdgeId start, std::vector<bool>& is_done, Region& region) {
+    // The boundary runs straight on at a vertex if one and the same segment leads along all of it
+    // from the corner before to the corner after: where two crossings are a last place apart, each
+    // edge shares a segment with the next one, and there is a corner all the same.
+    Segments straight = segments_along(start);
+    std::optional<Segments> to_first_corner;
     EdgeId e = start;
     do {
       is_done[e.index()] = true;
@@ -382,8 +397,15 @@ class Cleaning {
         report_led_through(e, v);
         is_settled_ = false;
       }
-      if (!is_left_over(e, after))
+      const bool is_last = after == start && to_first_corner.has_value();
+      const Segments ahead = is_last ? *to_first_corner : segments_along(after);
+      Segments both = common(straight, ahead);
+      if (both.empty() || !may_be_left_over(mesh_.from(after))) {
         region.loop_vertices.push_back(add_point(mesh_.from(after), region));
+        if (!to_first_corner) to_first_corner = straight;
+        both = ahead;
+      }
+      straight = std::move(both);
       e = after;
     } while (e != start);
     // The walk began with the end of the first edge: let the loop begin with its start.

@@ -28,5 +28,19 @@ TEST(AnyStack, MakesASolidAndKeepsItsAreas) {
   }
 }
 
+TEST(AnyStack, TwoCrossingsALastPlaceApartKeepTheCornerBetweenThem) {
+  stacks::AnyStack any;
+  any.options.fill = Fill::nonzero;
+  const std::vector<Contour> contours{
+      {{{0.30000000000000004, 0.2}, {0.4, 0.2}, {0.4, 0.30000000000000004}}, ""},
+      {{{0.33960784313725517, 0.3000000000000003},
+        {0.4109803921568626, 0.2000000000000001},
+        {0.4, 0.2},
+        {0.4000000000000003, 0.36745098039215696}},
+       ""}};
+  any.slices = {{0.1, contours}, {0.2, contours}};
+  EXPECT_EQ(stacks::complaint(any), "");
+}
+
 }  // namespace
 }  // namespace loft
