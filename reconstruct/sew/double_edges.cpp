@@ -25,14 +25,14 @@ void Sewing::split_double_edges(const Crowd& crowd) {
   std::vector<HalfEdge> edges;
   for (HalfEdge h : crowd.half_edges) {
     h = latest(h);
-    if (!mate(h).is_none() && h < mate(h)) edges.push_back(h);
+    if (mate(h).is_none() || h < mate(h)) edges.push_back(h);
   }
   std::ranges::sort(edges, {}, ends);
   if (std::ranges::adjacent_find(edges, {}, ends) == edges.end()) return;
   for (const HalfEdge h : edges) split_edge(h);
 }
 
-/// A midpoint on the edge of h: both its faces are cut in two.
+/// A midpoint on the edge of h: both its faces are cut in two; on an open rim its only one.
 void Sewing::split_edge(HalfEdge h) {
   const HalfEdge g = mate(h);
   const Vec3 p = place(h);
@@ -43,6 +43,7 @@ void Sewing::split_edge(HalfEdge h) {
       {{(p[0] + q[0]) / 2, (p[1] + q[1]) / 2, (p[2] + q[2]) / 2},
        {VertexKind::steiner, at(h.layer).layer.slice, Origin::none, Origin::none}});
   const HalfEdge h_half = cut(h, middle);
+  if (g.is_none()) return;
   const HalfEdge g_half = cut(g, middle);
   join(h, g_half);
   join(g, h_half);

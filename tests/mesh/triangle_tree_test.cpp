@@ -51,7 +51,9 @@ TEST(TriangleTree, FindsAllThatMeetWhileTrianglesComeChangeAndGo) {
     }));
     for (std::uint32_t n = 0; n < triangles.size(); ++n) {
       EXPECT_LE(found.count(n), is_there[n] ? 1U : 0U) << n;
-      if (is_there[n] && triangles_meet(query, triangles[n])) EXPECT_TRUE(found.contains(n)) << n;
+      if (is_there[n] && triangles_meet(query, triangles[n])) {
+        EXPECT_TRUE(found.contains(n)) << n;
+      }
     }
   }
 }

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "mesh/check.h"
 #include "mesh/measure.h"
 #include "tests/reconstruct/live/change_watch.h"
 #include "tests/reconstruct/live/edit_script.h"
@@ -182,6 +183,20 @@ TEST(Reconstruction, OpenEndsWhereContoursTouchAreTakenApart) {
     EXPECT_EQ(broken(live.surface()), "");
     EXPECT_EQ(difference(live, options), "");
   }
+}
+
+TEST(Reconstruction, ARimBesideTwoFacesOfAnotherPartIsTakenApartFromThem) {
+  const Options options{.fill = Fill::nonzero, .cap = Cap::open};
+  Reconstruction live(options);
+  live.insert(Slice{0.16,
+                    {{{{0.7, 0.4}, {0.1, 1.2}, {0.3, 0.1}}, ""},
+                     {{{0.36274509803921534, 0.14705882352941188}, {0.2, 0.1}, {1.3, 0.9}}, ""},
+                     {{{0.3, 0.1}, {0.4, 0.1}, {0.3, 0.2}}, ""}}});
+  live.insert(Slice{0.24, {{{{0.2, 0.1}, {0.3, 0.1}, {0.3, 0.2}}, ""}}});
+  EXPECT_EQ(broken(live.surface()), "");
+  EXPECT_EQ(difference(live, options), "");
+  for (const Finding& finding : check(to_mesh(live.snapshot().surface(1))))
+    EXPECT_EQ(finding.fault, Fault::boundary_edge);
 }
 
 TEST(Reconstruction, RandomEditsOfOpenSurfacesThatTouchGiveWhatTheBatchGives) {
