@@ -21,10 +21,6 @@ using cdt::Point;
 /// Finding out what encloses what may take that many steps a point.
 constexpr std::size_t most_steps = 64;
 
-bool overlap(const Box& a, const Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
-}
-
 /// A point of the plane, for trees of boxes in space.
 Vec3 flat(Point p) { return {p.x, p.y, 0}; }
 
@@ -116,7 +112,7 @@ class SimpleSlice {
     TileGrid grid(edges_.size(), [&](std::uint32_t i) { return boxes[i]; });
     for (std::uint32_t i = 0; i < edges_.size(); ++i) {
       const bool is_apart = grid.all_of_near(boxes[i], [&](std::uint32_t j) {
-        return j <= i || !overlap(boxes[i], boxes[j]) || !meet(edges_[i], edges_[j]);
+        return j <= i || !boxes_meet(boxes[i], boxes[j]) || !meet(edges_[i], edges_[j]);
       });
       if (!is_apart) return false;
     }

@@ -8,6 +8,7 @@
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/links.h"
 #include "reconstruct/link/replace.h"
+#include "reconstruct/plane/tile_grid.h"
 
 namespace loft {
 
@@ -20,10 +21,6 @@ bool is_same_loop(const Region& a, std::uint32_t i, const Region& b, std::uint32
     return a.points[v] == b.points[w] && is_same_in_slice(a.origins[v], b.origins[w]);
   };
   return std::ranges::equal(a.loop(i), b.loop(j), is_same_vertex);
-}
-
-bool boxes_meet(const cdt::Box& a, const cdt::Box& b) {
-  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
 void add(cdt::Box& box, const cdt::Box& other) {

@@ -10,6 +10,11 @@
 
 namespace loft {
 
+/// Whether two boxes in the plane have a point in common.
+[[nodiscard]] inline bool boxes_meet(const cdt::Box& a, const cdt::Box& b) {
+  return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
+}
+
 /// Boxes in the plane, sorted into the cells of a regular grid; more can be added.
 /// Finds those near a place. Memory: about four entries a box where sizes are alike.
 class TileGrid {

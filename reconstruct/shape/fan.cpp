@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "mesh/triangle_shape.h"
+#include "reconstruct/shape/nearness.h"
 
 namespace loft {
 
@@ -229,11 +230,7 @@ double Fan::distance_at_middle(std::size_t target) const {
 }
 
 double Fan::distance_at_rim() const {
-  const Vec3& a = spokes_.front().place;
-  const Vec3 way = minus(spokes_.back().place, a);
-  const double whole = squared_length(way);
-  const double share = whole > 0 ? std::clamp(dot(minus(middle_, a), way) / whole, 0.0, 1.0) : 0;
-  return length(minus(middle_, along(a, share, way)));
+  return std::sqrt(squared_distance(middle_, spokes_.front().place, spokes_.back().place));
 }
 
 double Fan::distance_at_crossings(std::size_t target) const {

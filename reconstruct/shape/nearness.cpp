@@ -35,6 +35,13 @@ Box3 box(const Corners& t) { return box_around(t[0], t[1], t[2]); }
 
 }  // namespace
 
+double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b) {
+  const Vec3 way = minus(b, a);
+  const double whole = squared_length(way);
+  const double share = whole > 0 ? std::clamp(dot(minus(p, a), way) / whole, 0.0, 1.0) : 0;
+  return squared_length(minus(p, along(a, share, way)));
+}
+
 // By the region around the triangle that p is in (Ericson, "Real-Time Collision Detection", 5.1.5).
 // Shares are between 0 and 1 whatever the rounding, so what is measured is a point of the triangle.
 double squared_distance(const Vec3& p, const Corners& triangle) {

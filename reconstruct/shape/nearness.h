@@ -12,6 +12,8 @@
 
 namespace loft {
 
+/// The square of the distance from a point to the nearest point of the segment from a to b.
+[[nodiscard]] double squared_distance(const Vec3& p, const Vec3& a, const Vec3& b);
 /// The square of the distance from a point to the nearest point of a triangle.
 [[nodiscard]] double squared_distance(const Vec3& p, const Corners& triangle);
 

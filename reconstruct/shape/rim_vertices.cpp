@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "mesh/vec3.h"
+#include "reconstruct/shape/nearness.h"
 
 namespace loft {
 
@@ -46,12 +46,8 @@ Rim read_rim(const Surface& surface, Halfedge start, std::vector<bool>& is_read)
 
 /// Whether all places are near the edge from the first to the last.
 bool are_near_edge(std::span<const Vec3> places, double distance) {
-  const Vec3& a = places.front();
-  const Vec3 way = minus(places.back(), a);
-  const double whole = squared_length(way);
   return std::ranges::all_of(places, [&](const Vec3& p) {
-    const double share = whole > 0 ? std::clamp(dot(minus(p, a), way) / whole, 0.0, 1.0) : 0;
-    return squared_length(minus(p, along(a, share, way))) <= distance * distance;
+    return squared_distance(p, places.front(), places.back()) <= distance * distance;
   });
 }
 
