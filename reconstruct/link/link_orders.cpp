@@ -322,6 +322,15 @@ class Ordering {
       group.shift = shift;
       return embed(std::move(*tiles));
     }
+    Piece piece;
+    piece.lower.loops = group.lower;
+    piece.upper.loops = group.upper;
+    measure(lower_, piece.lower);
+    measure(upper_, piece.upper);
+    if (auto made = best_registered(lower_, upper_, piece, piece.lower.area + piece.upper.area)) {
+      group.shift = made->piece.shift;
+      return std::move(made->tiles);
+    }
     return std::nullopt;
   }
 

@@ -8,6 +8,10 @@
 #include "mesh/box_tree.h"
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/replace.h"
+#include "reconstruct/registration/registration.h"
+#include <cstdio>
+#include <cstdlib>
+#include <set>
 
 namespace loft {
 
@@ -60,14 +64,6 @@ double swept(const Region& region, const Footprint& footprint, Point way) {
   return sum;
 }
 
-/// The tiles of a piece by itself, its upper part moved by its shift; and how far the two parts
-/// overlap then.
-struct Moved {
-  TileSet tiles;
-  Piece piece;
-  double difference = 0;
-};
-
 std::optional<Moved> move(const Region& lower, const Region& upper, Piece piece,
                           std::size_t most_pairs = any_number) {
   const Extract below(lower, piece.lower.loops, piece.is_solid);
@@ -109,8 +105,85 @@ double overlap(const Piece& piece, double difference) {
   return sum > 0 ? std::max(0.0, (sum - difference) / (sum + difference)) : 0;
 }
 
+namespace {
+
+/// Vertices less edges plus faces of some tiles.
+std::vector<int> euler(const TileSet& tiles, const Pieces& pieces) {
+  std::vector<std::set<std::uint32_t>> nodes(pieces.pieces.size());
+  std::vector<std::set<std::pair<std::uint32_t, std::uint32_t>>> edges(pieces.pieces.size());
+  std::vector<int> sum(pieces.pieces.size());
+  for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
+    const auto p = pieces.of_tile[t];
+    ++sum[p];
+    const auto& n = tiles.tiles[t].nodes;
+    for (unsigned k = 0; k < 3; ++k) {
+      nodes[p].insert(n[k]);
+      edges[p].insert(std::minmax(n[k], n[(k + 1) % 3]));
+    }
+  }
+  for (std::size_t p = 0; p < sum.size(); ++p)
+    sum[p] += static_cast<int>(nodes[p].size()) - static_cast<int>(edges[p].size());
+  return sum;
+}
+double env(const char* name, double otherwise) {
+  const char* v = std::getenv(name);
+  return v ? std::atof(v) : otherwise;
+}
+
+}  // namespace
+
+std::optional<Moved> best_registered(const Region& lower, const Region& upper, const Piece& piece,
+                                     double) {
+  const Extract below(lower, piece.lower.loops, piece.is_solid);
+  const Extract above(upper, piece.upper.loops, piece.is_solid);
+  std::optional<Moved> best;
+  for (const Point off : {Point{}, offset(piece)}) {
+    const auto made = tile_registered(below.region(), above.region(), {-off.x, -off.y},
+                                      1000000 + 1000 * (below.region().points.size() +
+                                                        above.region().points.size()));
+    if (!made) continue;
+    if (getenv("REGDBG")) fprintf(stderr, "  off %g,%g difference %g\n", off.x, off.y, made->difference);
+    if (best && best->difference <= made->difference) continue;
+    best.emplace();
+    best->difference = made->difference;
+    best->piece = piece;
+    best->piece.reason = LinkReason::slide;
+    best->piece.shift = {-made->motion.shift.x, -made->motion.shift.y};
+    best->tiles =
+        embedded(TileSet(made->tiles), below, above, static_cast<std::uint32_t>(lower.points.size()),
+                 static_cast<std::uint32_t>(upper.points.size()), piece.is_solid);
+  }
+  return best;
+}
+
 void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
            std::optional<double> max_shift) {
+  if (!getenv("NOREG")) {
+    const auto before = differences(lower, upper, tiles, pieces);
+    const auto chi = euler(tiles, pieces);
+    std::vector<Replacement> replacements;
+    for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
+      const Piece& piece = pieces.pieces[i];
+      if (piece.is_end() || piece.lower.loops.size() != piece.upper.loops.size() ||
+          piece.lower.parts != piece.upper.parts)
+        continue;
+      const bool is_knotted = chi[i] != 0;
+      if (!is_knotted && overlap(piece, before[i]) > env("ENOUGH", 0.6)) continue;
+      auto moved = best_registered(lower, upper, piece, before[i]);
+      if (getenv("REGDBG"))
+        fprintf(stderr, "z %g piece %u loops %zu chi %d overlap %g before %g after %g\n", lower.z, i,
+                piece.lower.loops.size(), chi[i], overlap(piece, before[i]), before[i],
+                moved ? moved->difference : -1);
+      if (!moved) continue;
+      const Pieces alone{{moved->piece}, std::vector<std::uint32_t>(moved->tiles.tiles.size(), 0)};
+      const int now = euler(moved->tiles, alone)[0];
+      if (getenv("REGDBG")) fprintf(stderr, "   chi now %d\n", now);
+      if (std::abs(now) > std::abs(chi[i])) continue;
+      if (moved->difference > env("LEFT", 0.5) * before[i] && !(is_knotted && now == 0 && moved->difference <= before[i])) continue;
+      replacements.push_back(replacement(std::move(*moved), {i}));
+    }
+    replace(lower, upper, tiles, pieces, replacements);
+  }
   std::vector<std::uint32_t> movable;
   for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
@@ -213,10 +286,10 @@ class Matching {
   }
 
   /// `level` is the slice that the slab beside has in common with this one.
-  static void look(const SlabPieces& beside, Level level, std::vector<End>& ends) {
+  void look(const SlabPieces& beside, Level level, std::vector<End>& ends) const {
     if (beside.pieces == nullptr || ends.empty()) return;
     const auto& pieces = beside.pieces->pieces;
-    const auto matches = match_ends({}, beside, {}, {}, {});
+    const auto matches = match_ends({}, beside, {}, max_shift_, {});
     std::vector<const Piece*> of_loop;  // by the first loop of the common footprint
     for (const Piece& piece : pieces) {
       if (piece.footprint(level).is_empty()) continue;
@@ -245,7 +318,7 @@ class Matching {
 
   /// Whether a part shrinks as fast as one that ends in this slab.
   [[nodiscard]] bool is_closing(const End& end) const {
-    return end.trend && end.radius * end.radius * (end.trend->gap + slab_.gap) <=
+    return end.trend && end.footprint->loops.size() == 1 && end.radius * end.radius * (end.trend->gap + slab_.gap) <=
                             end.trend->radius * end.trend->radius * slab_.gap;
   }
 
@@ -261,9 +334,10 @@ class Matching {
   }
 
   /// Two ends that may be a pair meet in these.
-  [[nodiscard]] static Box3 reach(const End& end) {
+  [[nodiscard]] Box3 reach(const End& end) const {
     const auto [x, y] = end.footprint->centroid;
-    const double way = std::max(farthest_predicted, farthest_near) * end.radius;
+    const double way = std::max(std::max(farthest_predicted, farthest_near) * end.radius,
+                                max_shift_.value_or(0) / 2);
     const double more = way + rounding_of_reach * (way + std::abs(x) + std::abs(y));
     return {{x - more, y - more, 0}, {x + more, y + more, 0}};
   }
@@ -281,12 +355,12 @@ class Matching {
     if (max_shift_ && shift > *max_shift_) return;
     const double unlikeness = 1 - likeness;
     if (!a.trend && !b.trend) {
-      if (!a.is_speck && !b.is_speck && shift <= farthest_near * sizes)
+      if (!a.is_speck && !b.is_speck && shift <= max_shift_.value_or(farthest_near * sizes))
         pairs_.push_back({shift / sizes + unlikeness, i, j, LinkReason::nearest});
       return;
     }
     const double off = std::max(error(a, way), error(b, {-way.x, -way.y}));
-    if (shift <= farthest_predicted * sizes &&
+    if (shift <= max_shift_.value_or(farthest_predicted * sizes) &&
         off <= most_error * sizes + most_error_of_shift * shift)
       pairs_.push_back({off / sizes + unlikeness, i, j, LinkReason::predicted});
   }
@@ -382,6 +456,10 @@ void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces&
     } else if (auto shell = move_shell(lower, upper, piece)) {
       shell->replaced = both;
       replacements.push_back(std::move(*shell));
+    } else if (auto fitted = best_registered(lower, upper, piece, piece.lower.area + piece.upper.area);
+               fitted && overlap(piece, fitted->difference) >= least_overlap) {
+      fitted->piece.reason = link.reason;
+      replacements.push_back(replacement(std::move(*fitted), both));
     } else if (moved && link.reason == LinkReason::order) {
       replacements.push_back(replacement(std::move(*moved), both));
     }

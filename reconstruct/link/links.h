@@ -17,6 +17,18 @@ namespace loft {
 /// points moved by it lose little, and it does not depend on the order of sums.
 [[nodiscard]] cdt::Point offset(const Piece& piece);
 
+/// The tiles of a piece by itself, its upper part moved by its shift; and how far the two parts
+/// overlap then.
+struct Moved {
+  TileSet tiles;
+  Piece piece;
+  double difference = 0;
+};
+
+/// The best registration of a piece.
+std::optional<Moved> best_registered(const Region& lower, const Region& upper, const Piece& piece,
+                                     double before);
+
 /// Moves the upper contours of pieces over their lower ones by the offset of their centroids, where
 /// a piece is one part in each slice, both cover less than 0.6 of what they cover together, and the
 /// move takes away at least 0.3 of their difference. Such a piece would be pinched by overlay

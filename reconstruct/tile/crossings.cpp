@@ -64,8 +64,8 @@ using Nodes = std::array<std::uint32_t, 3>;
 
 class Collapse {
  public:
-  Collapse(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid)
-      : tiles_(tiles.tiles),
+  Collapse(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid, std::optional<double> drift)
+      : drift_(drift), tiles_(tiles.tiles),
         inner_(tiles.inner),
         reaches_(tiles.reaches),
         sign_(is_solid ? 1 : -1),
@@ -233,7 +233,7 @@ class Collapse {
   [[nodiscard]] SheetsAround sheets_around(std::uint32_t p) {
     corners_.clear();
     for (const std::uint32_t face : faces_at(p)) {
-      if (tiles_[face].kind != FaceKind::sheet) continue;
+      if (!drift_ && tiles_[face].kind != FaceKind::sheet) continue;
       std::ranges::sort(corners_.emplace_back(places(tiles_[face].nodes)));
     }
     std::ranges::sort(corners_);
@@ -326,10 +326,10 @@ class Collapse {
     const auto& [sheets, most, stretch, reach] = measured(p);
     const double gain = sign_ * gained_area(place(p), corners_, height_);
     if (!(std::abs(gain) <= most)) return std::nullopt;
-    if (sideways_drift(place(p), corners_) > most_drift * sheets.width) return std::nullopt;
+    if (sideways_drift(place(p), corners_) > drift_.value_or(most_drift * sheets.width)) return std::nullopt;
     const double shape = worst_shape(corners_, stretch);
     if (!(shape > least_shape)) return std::nullopt;
-    const double off = sheets.area > 0 ? std::abs(gain / sheets.area - fair_gain) : 0;
+    const double off = sheets.area > 0 ? std::abs(gain / sheets.area - (drift_ ? 0 : fair_gain)) : 0;
     return shape * std::exp(-weight_of_gain * off);
   }
 
@@ -410,6 +410,7 @@ class Collapse {
     drop_unused_inner(tiles_, inner_, contour_count_);
   }
 
+  std::optional<double> drift_;
   std::vector<Tile>& tiles_;
   std::vector<InnerVertex>& inner_;
   std::vector<Reach>& reaches_;
@@ -435,8 +436,8 @@ class Collapse {
 
 }  // namespace
 
-bool collapse_crossings(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid) {
-  return Collapse(lower, upper, tiles, is_solid).run();
+bool collapse_crossings(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid, std::optional<double> drift) {
+  return Collapse(lower, upper, tiles, is_solid, drift).run();
 }
 
 }  // namespace loft

@@ -210,26 +210,6 @@ Scale scale(const Region& lower, const Region& upper) {
           std::max(size * 0x1p-28, farthest * 0x1p-44)};
 }
 
-/// Whether two tiles meet elsewhere than in common corners and edges (exact); also true if no more
-/// pairs may be tested.
-bool meet(const Region& lower, const Region& upper, const TileSet& tiles, std::size_t& pairs_left) {
-  std::vector<Corners> corners;
-  std::vector<Box3> boxes;
-  for (const Tile& tile : tiles.tiles) {
-    auto& places = corners.emplace_back();
-    for (unsigned i = 0; i < 3; ++i) places[i] = place_of(lower, upper, tiles.inner, tile.nodes[i]);
-    boxes.push_back(box_around(places[0], places[1], places[2]));
-    if (collinear(places[0], places[1], places[2])) return true;
-  }
-  bool is_found = false;
-  BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-    if (is_found || pairs_left == 0) return;
-    --pairs_left;
-    is_found = triangles_meet(corners[i], corners[j]);
-  });
-  return is_found || pairs_left == 0;
-}
-
 /// Whether the tiles and the two regions together have no rim, and nothing but the contours is in
 /// the slice planes.
 bool fit_together(const Region& lower, const Region& upper, const TileSet& tiles) {
@@ -312,6 +292,7 @@ struct Attempt {
   Overlay overlay;
   double tight;
   double contact;  // within which slices are merged; 0: they are not
+  bool collapses = true;
 };
 
 /// The tiles of a slab whose slices come within rounding of each other: as if they met exactly
@@ -322,8 +303,8 @@ std::optional<TileSet> tile_merged(const Region& lower, const Region& upper, con
   if (!slab) return {};
   auto drafted = draft(*slab, 0, Overlay::rounded, workspace);
   if (!drafted) return {};
-  collapse_crossings(lower, upper, drafted->tiles, true);
-  if (meet(lower, upper, drafted->tiles, pairs_left)) return {};
+  if (how.collapses) collapse_crossings(lower, upper, drafted->tiles, true);
+  if (tiles_meet(lower, upper, drafted->tiles, pairs_left)) return {};
   return std::move(drafted->tiles);
 }
 
@@ -341,10 +322,10 @@ std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, co
   auto drafted = draft(slab, how.tight, how.overlay, workspace);
   workspace.overlay = slab.release();
   if (!drafted) return {};
-  const bool is_decided = collapse_crossings(lower, upper, drafted->tiles, true);
+  const bool is_decided = how.collapses && collapse_crossings(lower, upper, drafted->tiles, true);
   const bool is_doubtful = drafted->is_doubtful || how.shear != Point{};
   drafted->tiles.is_plain = !is_doubtful && is_decided && !is_near;
-  if (is_doubtful && meet(lower, upper, drafted->tiles, pairs_left)) return {};
+  if (is_doubtful && tiles_meet(lower, upper, drafted->tiles, pairs_left)) return {};
   return std::move(drafted->tiles);
 }
 
@@ -363,7 +344,7 @@ TileSet tile_end(const Region& lower, const Region& upper, TileWorkspace& worksp
 /// Where a slice has slivers that are little wider than rounding, no overlay is exact: then one
 /// will do if all that is asked of its tiles holds.
 std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
-                                  std::size_t most_pairs, TileWorkspace& workspace) {
+                                  std::size_t most_pairs, bool collapses, TileWorkspace& workspace) {
   if (lower.is_empty() || upper.is_empty()) return tile_end(lower, upper, workspace);
   const Scale lengths = scale(lower, upper);
   std::size_t pairs_left = most_pairs;
@@ -373,7 +354,7 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
       const double step = attempt * lengths.shear;
       const Point shear{shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)};
       const bool is_first = overlay == Overlay::exact && attempt == 0;
-      const Attempt here{shear, overlay, lengths.tight, is_first ? contact_of(lengths.tight) : 0};
+      const Attempt here{shear, overlay, lengths.tight, is_first ? contact_of(lengths.tight) : 0, collapses};
       if (auto tiles = tile_sheared(lower, upper, here, pairs_left, workspace)) return tiles;
       if (pairs_left == 0) return std::nullopt;
     }
@@ -382,6 +363,25 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
 }
 
 }  // namespace
+
+bool tiles_meet(const Region& lower, const Region& upper, const TileSet& tiles,
+                std::size_t& pairs_left) {
+  std::vector<Corners> corners;
+  std::vector<Box3> boxes;
+  for (const Tile& tile : tiles.tiles) {
+    auto& places = corners.emplace_back();
+    for (unsigned i = 0; i < 3; ++i) places[i] = place_of(lower, upper, tiles.inner, tile.nodes[i]);
+    boxes.push_back(box_around(places[0], places[1], places[2]));
+    if (collinear(places[0], places[1], places[2])) return true;
+  }
+  bool is_found = false;
+  BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
+    if (is_found || pairs_left == 0) return;
+    --pairs_left;
+    is_found = triangles_meet(corners[i], corners[j]);
+  });
+  return is_found || pairs_left == 0;
+}
 
 double doubt(const Region& lower, const Region& upper) { return scale(lower, upper).tight; }
 
@@ -404,7 +404,18 @@ std::optional<TileSet> tile_plain(const Region& lower, const Region& upper, doub
 std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
                                   std::size_t most_pairs) {
   TileWorkspace workspace;
-  return tile_moved(lower, upper, shift, most_pairs, workspace);
+  return tile_moved(lower, upper, shift, most_pairs, true, workspace);
+}
+
+std::optional<TileSet> tile_with_crossings(const Region& lower, const Region& upper, double near,
+                                           std::size_t most_pairs) {
+  TileWorkspace workspace;
+  if (near > 0) {
+    if (auto slab = Slab::merged(lower, upper, {}, near))
+      if (auto drafted = draft(*slab, 0, Overlay::rounded, workspace))
+        return std::move(drafted->tiles);
+  }
+  return tile_moved(lower, upper, {}, most_pairs, false, workspace);
 }
 
 void drop_unused_inner(std::vector<Tile>& tiles, std::vector<InnerVertex>& inner,
@@ -449,7 +460,7 @@ TileSet tile_apart(const Region& lower, const Region& upper) {
 }
 
 TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace) {
-  if (auto tiles = tile_moved(lower, upper, {}, any_number, workspace)) return std::move(*tiles);
+  if (auto tiles = tile_moved(lower, upper, {}, any_number, true, workspace)) return std::move(*tiles);
   return tile_apart(lower, upper);
 }
 

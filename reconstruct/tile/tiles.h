@@ -100,6 +100,16 @@ inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max(
                                                 cdt::Point shift,
                                                 std::size_t most_pairs = any_number);
 
+/// Whether two tiles meet elsewhere than in common corners and edges (exact); also true if one is
+/// flat, or if that would take tests of more than `pairs_left` pairs.
+[[nodiscard]] bool tiles_meet(const Region& lower, const Region& upper, const TileSet& tiles,
+                              std::size_t& pairs_left);
+
+/// The same tiles for regions that were moved over each other: crossings stay, for the caller to
+/// collapse once the tiles are where they belong.
+[[nodiscard]] std::optional<TileSet> tile_with_crossings(const Region& lower, const Region& upper, double near,
+                                                         std::size_t most_pairs);
+
 /// Nothing is linked: each region ends before half way, whatever is above or below it.
 [[nodiscard]] TileSet tile_apart(const Region& lower, const Region& upper);
 

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/registration/displacement.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <utility>
+
+#include "cdt/predicates.h"
+#include "cdt/queries.h"
+#include "cdt/regions.h"
+
+namespace loft {
+
+namespace {
+
+using cdt::EdgeId;
+using cdt::Point;
+using cdt::TriangleId;
+using cdt::Triangulation;
+
+/// A triangle of a region's CDT, by the region's points.
+using Corner = std::array<std::uint32_t, 3>;
+
+/// The indices of a region's points by vertices of a triangulation of its loops.
+std::vector<std::uint32_t> points_of_vertices(const Region& region, const Triangulation& mesh) {
+  std::vector<std::uint32_t> point(mesh.vertex_bound(), Origin::none);
+  for (std::uint32_t i = 0; i < region.loop_vertices.size(); ++i)
+    point[mesh.segment(cdt::SegmentId(i)).from.index()] = region.loop_vertices[i];
+  return point;
+}
+
+std::vector<Corner> triangles(const Region& region) {
+  Triangulation mesh;
+  mesh.reserve(region.points.size());
+  insert_loops(region, mesh);
+  const std::vector<std::uint32_t> point = points_of_vertices(region, mesh);
+  std::vector<Corner> found;
+  for (std::uint32_t t = 0; t < mesh.triangle_bound(); ++t) {
+    if (!mesh.is_triangle(TriangleId(t)) || mesh.is_infinite(TriangleId(t))) continue;
+    const EdgeId e = Triangulation::edge(TriangleId(t));
+    found.push_back({point[mesh.from(e).index()], point[mesh.to(e).index()],
+                     point[mesh.apex(e).index()]});
+  }
+  return found;
+}
+
+double cross(Point a, Point b, Point c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+using Entry = Eigen::Triplet<double>;
+
+/// The normal equations of the pulls and of the smoothness, solved.
+std::optional<std::vector<Point>> solve(const Region& region, std::span<const Corner> triangles,
+                                        std::span<const Pull> pulls, double softness) {
+  const auto count = static_cast<Eigen::Index>(region.points.size());
+  std::vector<Entry> entries;
+  Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(count, 2);
+  const auto add = [&](std::uint32_t i, std::uint32_t j, double value) {
+    entries.emplace_back(static_cast<int>(i), static_cast<int>(j), value);
+  };
+  for (const Pull& pull : pulls) {
+    const double weight = pull.weight / softness;
+    const std::array ends{std::pair(pull.stretch.from, 1 - pull.stretch.share),
+                          std::pair(pull.stretch.to, pull.stretch.share)};
+    for (const auto& [i, share] : ends) {
+      right(i, 0) += weight * share * pull.way.x;
+      right(i, 1) += weight * share * pull.way.y;
+      for (const auto& [j, other] : ends) add(i, j, weight * share * other);
+    }
+  }
+  for (const Corner& t : triangles) {
+    const std::array<Point, 3> at{region.points[t[0]], region.points[t[1]], region.points[t[2]]};
+    const double area = cross(at[0], at[1], at[2]);
+    for (unsigned k = 0; k < 3; ++k) {
+      const Point p = at[k];
+      const Point q = at[(k + 1) % 3];
+      const double squared = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
+      const double weight = std::max(area / squared, 1e-3);
+      const std::uint32_t i = t[k];
+      const std::uint32_t j = t[(k + 1) % 3];
+      add(i, i, weight);
+      add(j, j, weight);
+      add(i, j, -weight);
+      add(j, i, -weight);
+    }
+  }
+  Eigen::SparseMatrix<double> matrix(count, count);
+  matrix.setFromTriplets(entries.begin(), entries.end());
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors(matrix);
+  if (factors.info() != Eigen::Success) return {};
+  const Eigen::MatrixX2d solution = factors.solve(right);
+  std::vector<Point> ways;
+  for (Eigen::Index i = 0; i < count; ++i) {
+    ways.push_back({solution(i, 0), solution(i, 1)});
+    if (!std::isfinite(ways.back().x) || !std::isfinite(ways.back().y)) return {};
+  }
+  return ways;
+}
+
+/// Shortens ways where triangles turn over.
+class Settling {
+ public:
+  Settling(const Region& region, std::span<const Corner> triangles, std::vector<Point>& ways)
+      : region_(region), triangles_(triangles), ways_(ways) {}
+
+  /// Whether no triangle turns over in the end.
+  bool run() {
+    constexpr int rounds = 30;
+    constexpr int smooth_rounds = 12;
+    for (int round = 0; round < rounds; ++round) {
+      if (getenv("REGDBG2")) { find_turned(); if(round%8==0) fprintf(stderr, "round %d: %d of %zu\n", round, turned_count_, triangles_.size()); }
+      if (!find_turned()) return true;
+      if (round < smooth_rounds) {
+        smooth();
+      } else {
+        shorten();
+      }
+    }
+    return !find_turned();
+  }
+
+ private:
+  [[nodiscard]] Point moved(std::uint32_t i) const {
+    return {region_.points[i].x + ways_[i].x, region_.points[i].y + ways_[i].y};
+  }
+
+  /// Finds the ends of moved edges that cross or touch others, or that have the region on the wrong
+  /// side.
+  bool find_turned() {
+    is_turned_.assign(ways_.size(), false);
+    turned_count_ = 0;
+    Region moved = region_;
+    for (std::uint32_t i = 0; i < ways_.size(); ++i) moved.points[i] = this->moved(i);
+    Triangulation mesh;
+    mesh.reserve(moved.points.size());
+    insert_loops(moved, mesh);
+    const std::vector<std::uint32_t> point = points_of_vertices(moved, mesh);
+    const std::vector<bool> is_inside = cdt::odd_parity(mesh);
+    const auto flag = [&](cdt::VertexId v) {
+      if (point[v.index()] == Origin::none) return;
+      is_turned_[point[v.index()]] = true;
+      ++turned_count_;
+    };
+    if (mesh.vertex_count() != moved.points.size() || !mesh.snaps().empty()) {
+      std::vector<std::uint32_t> uses(mesh.vertex_bound());
+      for (std::uint32_t s = 0; s < mesh.segment_bound(); ++s)
+        ++uses[mesh.segment(cdt::SegmentId(s)).from.index()];
+    }
+    for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i) {
+      const EdgeId e(i);
+      if (!mesh.is_triangle(Triangulation::triangle(e))) continue;
+      for (const cdt::Passage passage : mesh.passages(e)) {
+        if (!mesh.is_forward(e, passage)) continue;
+        const cdt::Segment& segment = mesh.segment(passage.segment());
+        const bool is_whole = segment.from == mesh.from(e) && segment.to == mesh.to(e);
+        const bool is_single = mesh.passages(e).size() == 1;
+        if (is_whole && is_single && is_inside[Triangulation::triangle(e).index()] &&
+            !is_inside[Triangulation::triangle(mesh.twin(e)).index()])
+          continue;
+        flag(segment.from);
+        flag(segment.to);
+      }
+    }
+    // Points that have become one.
+    if (turned_count_ == 0 && mesh.vertex_count() != moved.points.size()) {
+      std::vector<bool> is_found(ways_.size(), false);
+      for (const std::uint32_t i : point)
+        if (i != Origin::none) is_found[i] = true;
+      for (std::size_t i = 0; i < ways_.size(); ++i)
+        if (!is_found[i]) is_turned_[i] = true, ++turned_count_;
+    }
+    return turned_count_ > 0;
+  }
+
+  /// Half way to the mean of all around.
+  void smooth() {
+    std::vector<Point> sums(ways_.size());
+    std::vector<double> counts(ways_.size());
+    for (const Corner& t : triangles_) {
+      for (unsigned k = 0; k < 3; ++k) {
+        const std::uint32_t i = t[k];
+        for (const std::uint32_t j : {t[(k + 1) % 3], t[(k + 2) % 3]}) {
+          sums[i] = {sums[i].x + ways_[j].x, sums[i].y + ways_[j].y};
+          ++counts[i];
+        }
+      }
+    }
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (is_turned_[i])
+        ways_[i] = {(ways_[i].x + sums[i].x / counts[i]) / 2,
+                    (ways_[i].y + sums[i].y / counts[i]) / 2};
+  }
+
+  /// Where triangles turn over, and around there.
+  void shorten() {
+    std::vector<bool> is_near = is_turned_;
+    for (const Corner& t : triangles_)
+      if (is_turned_[t[0]] || is_turned_[t[1]] || is_turned_[t[2]])
+        for (const std::uint32_t i : t) is_near[i] = true;
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (is_near[i]) ways_[i] = {ways_[i].x / 2, ways_[i].y / 2};
+  }
+
+  const Region& region_;
+  std::span<const Corner> triangles_;
+  std::vector<Point>& ways_;
+  std::vector<bool> is_turned_; int turned_count_ = 0;
+};
+
+}  // namespace
+
+std::optional<Displacement> Displacement::fit(const Region& region, std::span<const Pull> pulls,
+                                              double softness) {
+  const std::vector<Corner> triangles = loft::triangles(region);
+  const Affine affine = fit_affine(pulls);
+  std::vector<Pull> rest(pulls.begin(), pulls.end());
+  for (Pull& pull : rest) {
+    const Point way = affine.way(pull.stretch.middle);
+    pull.way = {pull.way.x - way.x, pull.way.y - way.y};
+  }
+  auto ways = solve(region, triangles, rest, softness);
+  if (ways)
+    for (std::size_t i = 0; i < ways->size(); ++i) {
+      const Point way = affine.way(region.points[i]);
+      (*ways)[i] = {(*ways)[i].x + way.x, (*ways)[i].y + way.y};
+    }
+  if (!ways || !Settling(region, triangles, *ways).run()) return {};
+  Displacement made;
+  made.ways_ = std::move(*ways);
+  return made;
+}
+
+Interpolation::Interpolation(const Region& region, std::span<const Point> values) {
+  mesh_.reserve(region.points.size());
+  insert_loops(region, mesh_);
+  values_.resize(mesh_.vertex_bound());
+  const std::vector<std::uint32_t> point = points_of_vertices(region, mesh_);
+  for (std::size_t v = 1; v < values_.size(); ++v)
+    if (point[v] != Origin::none) values_[v] = values[point[v]];
+}
+
+Point Interpolation::at(Point place) const {
+  const cdt::Location found = mesh_.locate(place);
+  if (found.kind == cdt::Location::Kind::nowhere || found.kind == cdt::Location::Kind::outside)
+    return values_[cdt::nearest_vertex(mesh_, place).index()];
+  const std::array corners{mesh_.from(found.edge), mesh_.to(found.edge), mesh_.apex(found.edge)};
+  if (found.kind != cdt::Location::Kind::triangle &&
+      mesh_.is_infinite(Triangulation::triangle(found.edge))) {
+    return values_[cdt::nearest_vertex(mesh_, place).index()];
+  }
+  const auto [a, b, c] = corners;
+  const Point p = mesh_.point(a), q = mesh_.point(b), r = mesh_.point(c);
+  const double whole = cross(p, q, r);
+  const std::array shares{cross(place, q, r) / whole, cross(p, place, r) / whole,
+                          cross(p, q, place) / whole};
+  Point sum;
+  for (unsigned i = 0; i < 3; ++i) {
+    const Point value = values_[corners[i].index()];
+    sum = {sum.x + shares[i] * value.x, sum.y + shares[i] * value.y};
+  }
+  return sum;
+}
+
+}  // namespace loft

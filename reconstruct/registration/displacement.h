@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "cdt/triangulation.h"
+#include "reconstruct/registration/affine.h"
+
+namespace loft {
+
+/// A displacement of the points of a region, smooth over the plane and an embedding: it moves every
+/// triangle of the region's CDT, inside and outside, without turning it over (exact).
+class Displacement {
+ public:
+  /// The least squares of pulls and of the change along edges of the CDT: what happens over a
+  /// distance below `softness` is smoothed. Where a triangle would turn over the ways
+  /// are smoothed further, then shortened; none if that does not help.
+  /// Cost: that of the CDT, and of a sparse symmetric system with a row a point.
+  [[nodiscard]] static std::optional<Displacement> fit(const Region& region,
+                                                       std::span<const Pull> pulls,
+                                                       double softness);
+
+  [[nodiscard]] std::span<const cdt::Point> ways() const { return ways_; }
+
+ private:
+  std::vector<cdt::Point> ways_;  // of each point
+};
+
+/// A function of the plane that has given values at given places and is linear over the triangles
+/// of their CDT; beyond them, that of the nearest place.
+class Interpolation {
+ public:
+  /// Places and loops of the region, each place once.
+  Interpolation(const Region& region, std::span<const cdt::Point> values);
+
+  /// Cost: to locate a point.
+  [[nodiscard]] cdt::Point at(cdt::Point place) const;
+
+ private:
+  cdt::Triangulation mesh_;
+  std::vector<cdt::Point> values_;  // of each vertex
+};
+
+}  // namespace loft

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/registration/outline.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace loft {
+
+using cdt::Point;
+
+std::vector<Stretch> stretches(const Region& region, std::uint32_t loop, std::size_t count) {
+  std::vector<Stretch> made;
+  const auto vertices = region.loop(loop);
+  std::vector<double> ways{0};
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const Point p = region.points[vertices[i]];
+    const Point q = region.points[vertices[(i + 1) % vertices.size()]];
+    ways.push_back(ways.back() + std::hypot(q.x - p.x, q.y - p.y));
+  }
+  const double step = ways.back() / static_cast<double>(count);
+  std::size_t edge = 0;
+  for (std::size_t k = 0; k < count; ++k) {
+    const double way = (static_cast<double>(k) + 0.5) * step;
+    while (edge + 1 < vertices.size() && ways[edge + 1] <= way) ++edge;
+    const std::uint32_t from = vertices[edge];
+    const std::uint32_t to = vertices[(edge + 1) % vertices.size()];
+    const Point p = region.points[from];
+    const Point q = region.points[to];
+    const double length = ways[edge + 1] - ways[edge];
+    const double share = std::clamp((way - ways[edge]) / length, 0.0, 1.0);
+    const Point middle{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
+    made.push_back({middle, {(q.y - p.y) / length, (p.x - q.x) / length}, step, from, to, share});
+  }
+  return made;
+}
+
+double perimeter(const Region& region) {
+  double sum = 0;
+  for (const Segment& edge : boundary(region))
+    sum += std::hypot(edge[1].x - edge[0].x, edge[1].y - edge[0].y);
+  return sum;
+}
+
+double area(const Region& region) {
+  if (region.is_empty()) return 0;
+  const Point origin = region.points.front();
+  double sum = 0;
+  for (const Segment& edge : boundary(region))
+    sum += (edge[0].x - origin.x) * (edge[1].y - origin.y) -
+           (edge[0].y - origin.y) * (edge[1].x - origin.x);
+  return sum / 2;
+}
+
+}  // namespace loft
