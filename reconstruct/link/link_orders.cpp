@@ -327,7 +327,7 @@ class Ordering {
     piece.upper.loops = group.upper;
     measure(lower_, piece.lower);
     measure(upper_, piece.upper);
-    if (auto made = best_registered(lower_, upper_, piece, piece.lower.area + piece.upper.area)) {
+    if (auto made = move_registered(lower_, upper_, piece)) {
       group.shift = made->piece.shift;
       return std::move(made->tiles);
     }

@@ -128,6 +128,8 @@ const char* name(LinkReason reason) {
       return "predicted";
     case LinkReason::nearest:
       return "nearest";
+    case LinkReason::registered:
+      return "registered";
     case LinkReason::order:
       break;
   }

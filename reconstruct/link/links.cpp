@@ -9,9 +9,6 @@
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/replace.h"
 #include "reconstruct/registration/registration.h"
-#include <cstdio>
-#include <cstdlib>
-#include <set>
 
 namespace loft {
 
@@ -105,85 +102,95 @@ double overlap(const Piece& piece, double difference) {
   return sum > 0 ? std::max(0.0, (sum - difference) / (sum + difference)) : 0;
 }
 
+/// A piece moved as its outlines match, from where it is or from over each other, whichever leaves
+/// less of a difference.
+std::optional<Moved> move_registered(const Region& lower, const Region& upper, const Piece& piece) {
+  const Extract below(lower, piece.lower.loops, piece.is_solid);
+  const Extract above(upper, piece.upper.loops, piece.is_solid);
+  const std::size_t most_pairs = least_pairs + most_pairs_of_point * (below.region().points.size() +
+                                                                      above.region().points.size());
+  const Point away = offset(piece);
+  std::optional<Registered> best;
+  for (const Point start : {Point{}, Point{-away.x, -away.y}}) {
+    auto made = tile_registered(below.region(), above.region(), start, most_pairs);
+    if (made && (!best || made->difference < best->difference)) best = std::move(made);
+  }
+  if (!best) return {};
+  Moved moved{{}, piece, best->difference};
+  moved.tiles = embedded(std::move(best->tiles), below, above,
+                         static_cast<std::uint32_t>(lower.points.size()),
+                         static_cast<std::uint32_t>(upper.points.size()), piece.is_solid);
+  moved.piece.shift = {-best->motion.shift.x, -best->motion.shift.y};
+  moved.piece.registered_difference = best->difference;
+  return moved;
+}
+
 namespace {
 
-/// Vertices less edges plus faces of some tiles.
-std::vector<int> euler(const TileSet& tiles, const Pieces& pieces) {
-  std::vector<std::set<std::uint32_t>> nodes(pieces.pieces.size());
-  std::vector<std::set<std::pair<std::uint32_t, std::uint32_t>>> edges(pieces.pieces.size());
-  std::vector<int> sum(pieces.pieces.size());
+/// The Euler characteristic of each piece, twice. A band from a loop to a loop has 0; one with a
+/// window in it, or with a handle, has less. Cost: O(tiles).
+std::vector<long> twice_euler(const Region& lower, const Region& upper, const TileSet& tiles,
+                              const Pieces& pieces) {
+  std::vector<long> sums(pieces.pieces.size());
+  std::vector<bool> is_seen(lower.points.size() + upper.points.size() + tiles.inner.size());
   for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
-    const auto p = pieces.of_tile[t];
-    ++sum[p];
-    const auto& n = tiles.tiles[t].nodes;
-    for (unsigned k = 0; k < 3; ++k) {
-      nodes[p].insert(n[k]);
-      edges[p].insert(std::minmax(n[k], n[(k + 1) % 3]));
+    long& sum = sums[pieces.of_tile[t]];
+    --sum;  // twice a face, less its share of three edges
+    for (const std::uint32_t node : tiles.tiles[t].nodes) {
+      if (!is_seen[node]) sum += 2;
+      is_seen[node] = true;
     }
   }
-  for (std::size_t p = 0; p < sum.size(); ++p)
-    sum[p] += static_cast<int>(nodes[p].size()) - static_cast<int>(edges[p].size());
-  return sum;
+  const auto take_rims = [&](const Region& region, const Footprint& footprint, long& sum) {
+    for (const std::uint32_t loop : footprint.loops)
+      sum -= static_cast<long>(region.loop(loop).size());
+  };
+  for (std::size_t i = 0; i < sums.size(); ++i) {
+    take_rims(lower, pieces.pieces[i].lower, sums[i]);
+    take_rims(upper, pieces.pieces[i].upper, sums[i]);
+  }
+  return sums;
 }
-double env(const char* name, double otherwise) {
-  const char* v = std::getenv(name);
-  return v ? std::atof(v) : otherwise;
+
+/// Whether a piece has as many outlines and as many holes in both slices.
+bool is_alike(const Piece& piece) {
+  return !piece.is_end() && piece.lower.parts == piece.upper.parts &&
+         piece.lower.loops.size() == piece.upper.loops.size();
+}
+
+/// Moves pieces as their outlines match, where overlay alone has torn them: each outline goes on as
+/// one, but the tiles have windows or handles, and the slices overlap little.
+void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
+              std::optional<double> max_shift) {
+  const auto is_steiner = [](const InnerVertex& v) { return v.kind == VertexKind::steiner; };
+  if (std::ranges::none_of(tiles.inner, is_steiner)) return;
+  const std::vector<long> euler = twice_euler(lower, upper, tiles, pieces);
+  std::vector<std::uint32_t> torn;
+  for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
+    const Piece& piece = pieces.pieces[i];
+    if (piece.reason == LinkReason::overlap && is_alike(piece) && euler[i] < 0) torn.push_back(i);
+  }
+  if (torn.empty()) return;
+  const std::vector<double> before = differences(lower, upper, tiles, pieces);
+  std::vector<Replacement> replacements;
+  for (const std::uint32_t i : torn) {
+    if (overlap(pieces.pieces[i], before[i]) >= enough_overlap) continue;
+    auto moved = move_registered(lower, upper, pieces.pieces[i]);
+    if (!moved || moved->difference > most_left * before[i]) continue;
+    if (length(moved->piece.shift) > max_shift.value_or(length(moved->piece.shift))) continue;
+    const Pieces alone{{moved->piece}, std::vector<std::uint32_t>(moved->tiles.tiles.size(), 0)};
+    if (twice_euler(lower, upper, moved->tiles, alone)[0] != 0) continue;
+    moved->piece.reason = LinkReason::registered;
+    replacements.push_back(replacement(std::move(*moved), {i}));
+  }
+  replace(lower, upper, tiles, pieces, replacements);
 }
 
 }  // namespace
 
-std::optional<Moved> best_registered(const Region& lower, const Region& upper, const Piece& piece,
-                                     double) {
-  const Extract below(lower, piece.lower.loops, piece.is_solid);
-  const Extract above(upper, piece.upper.loops, piece.is_solid);
-  std::optional<Moved> best;
-  for (const Point off : {Point{}, offset(piece)}) {
-    const auto made = tile_registered(below.region(), above.region(), {-off.x, -off.y},
-                                      1000000 + 1000 * (below.region().points.size() +
-                                                        above.region().points.size()));
-    if (!made) continue;
-    if (getenv("REGDBG")) fprintf(stderr, "  off %g,%g difference %g\n", off.x, off.y, made->difference);
-    if (best && best->difference <= made->difference) continue;
-    best.emplace();
-    best->difference = made->difference;
-    best->piece = piece;
-    best->piece.reason = LinkReason::slide;
-    best->piece.shift = {-made->motion.shift.x, -made->motion.shift.y};
-    best->tiles =
-        embedded(TileSet(made->tiles), below, above, static_cast<std::uint32_t>(lower.points.size()),
-                 static_cast<std::uint32_t>(upper.points.size()), piece.is_solid);
-  }
-  return best;
-}
-
 void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
            std::optional<double> max_shift) {
-  if (!getenv("NOREG")) {
-    const auto before = differences(lower, upper, tiles, pieces);
-    const auto chi = euler(tiles, pieces);
-    std::vector<Replacement> replacements;
-    for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
-      const Piece& piece = pieces.pieces[i];
-      if (piece.is_end() || piece.lower.loops.size() != piece.upper.loops.size() ||
-          piece.lower.parts != piece.upper.parts)
-        continue;
-      const bool is_knotted = chi[i] != 0;
-      if (!is_knotted && overlap(piece, before[i]) > env("ENOUGH", 0.6)) continue;
-      auto moved = best_registered(lower, upper, piece, before[i]);
-      if (getenv("REGDBG"))
-        fprintf(stderr, "z %g piece %u loops %zu chi %d overlap %g before %g after %g\n", lower.z, i,
-                piece.lower.loops.size(), chi[i], overlap(piece, before[i]), before[i],
-                moved ? moved->difference : -1);
-      if (!moved) continue;
-      const Pieces alone{{moved->piece}, std::vector<std::uint32_t>(moved->tiles.tiles.size(), 0)};
-      const int now = euler(moved->tiles, alone)[0];
-      if (getenv("REGDBG")) fprintf(stderr, "   chi now %d\n", now);
-      if (std::abs(now) > std::abs(chi[i])) continue;
-      if (moved->difference > env("LEFT", 0.5) * before[i] && !(is_knotted && now == 0 && moved->difference <= before[i])) continue;
-      replacements.push_back(replacement(std::move(*moved), {i}));
-    }
-    replace(lower, upper, tiles, pieces, replacements);
-  }
+  untangle(lower, upper, tiles, pieces, max_shift);
   std::vector<std::uint32_t> movable;
   for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
@@ -318,8 +325,9 @@ class Matching {
 
   /// Whether a part shrinks as fast as one that ends in this slab.
   [[nodiscard]] bool is_closing(const End& end) const {
-    return end.trend && end.footprint->loops.size() == 1 && end.radius * end.radius * (end.trend->gap + slab_.gap) <=
-                            end.trend->radius * end.trend->radius * slab_.gap;
+    return end.trend && end.footprint->loops.size() == 1 &&
+           end.radius * end.radius * (end.trend->gap + slab_.gap) <=
+               end.trend->radius * end.trend->radius * slab_.gap;
   }
 
   void find_pairs() {
@@ -456,9 +464,8 @@ void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces&
     } else if (auto shell = move_shell(lower, upper, piece)) {
       shell->replaced = both;
       replacements.push_back(std::move(*shell));
-    } else if (auto fitted = best_registered(lower, upper, piece, piece.lower.area + piece.upper.area);
+    } else if (auto fitted = move_registered(lower, upper, piece);
                fitted && overlap(piece, fitted->difference) >= least_overlap) {
-      fitted->piece.reason = link.reason;
       replacements.push_back(replacement(std::move(*fitted), both));
     } else if (moved && link.reason == LinkReason::order) {
       replacements.push_back(replacement(std::move(*moved), both));

@@ -191,6 +191,8 @@ std::vector<double> differences(const Region& lower, const Region& upper, const 
     const auto& [a, b, c] = flat;
     sums[piece] += std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
   }
+  for (std::size_t i = 0; i < sums.size(); ++i)
+    sums[i] = pieces.pieces[i].registered_difference.value_or(sums[i]);
   return sums;
 }
 

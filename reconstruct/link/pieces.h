@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "reconstruct/tile/tiles.h"
@@ -10,11 +11,12 @@ namespace loft {
 
 /// Why the contours of a piece belong together.
 enum class LinkReason : std::uint8_t {
-  overlap,    ///< they overlap in projection
-  slide,      ///< they overlap, and much more so after a shift
-  predicted,  ///< they do not overlap, but lie where a neighbouring slice lets expect them
-  nearest,    ///< they do not overlap, but are near, alike, and nothing speaks against it
-  order,      ///< a LinkOrder asked for it
+  overlap,     ///< they overlap in projection
+  slide,       ///< they overlap, and much more so after a shift
+  predicted,   ///< they do not overlap, but lie where a neighbouring slice lets expect them
+  nearest,     ///< they do not overlap, but are near, alike, and nothing speaks against it
+  order,       ///< a LinkOrder asked for it
+  registered,  ///< they overlap, and were moved over each other as their outlines match
 };
 
 /// What of one slice belongs to a piece.
@@ -44,6 +46,8 @@ struct Piece {
   Footprint upper;
   LinkReason reason = LinkReason::overlap;
   cdt::Point shift;  ///< by which its upper contours were moved over the lower ones to be tiled
+  /// The area between its contours once they were moved as they match, not by the shift alone.
+  std::optional<double> registered_difference = {};
 
   [[nodiscard]] const Footprint& footprint(Level level) const {
     return level == Level::lower ? lower : upper;

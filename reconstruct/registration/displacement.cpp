@@ -4,8 +4,6 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <utility>
 
 #include "cdt/predicates.h"
@@ -41,8 +39,8 @@ std::vector<Corner> triangles(const Region& region) {
   for (std::uint32_t t = 0; t < mesh.triangle_bound(); ++t) {
     if (!mesh.is_triangle(TriangleId(t)) || mesh.is_infinite(TriangleId(t))) continue;
     const EdgeId e = Triangulation::edge(TriangleId(t));
-    found.push_back({point[mesh.from(e).index()], point[mesh.to(e).index()],
-                     point[mesh.apex(e).index()]});
+    found.push_back(
+        {point[mesh.from(e).index()], point[mesh.to(e).index()], point[mesh.apex(e).index()]});
   }
   return found;
 }
@@ -101,18 +99,23 @@ std::optional<std::vector<Point>> solve(const Region& region, std::span<const Co
   return ways;
 }
 
-/// Shortens ways where triangles turn over.
+bool are_usable(const Region& region, std::span<const Point> ways) {
+  return std::ranges::all_of(moved(region, ways).points, [](Point p) {
+    return Triangulation::is_usable(p.x) && Triangulation::is_usable(p.y);
+  });
+}
+
+/// Shortens ways where loops would cross or turn over.
 class Settling {
  public:
   Settling(const Region& region, std::span<const Corner> triangles, std::vector<Point>& ways)
       : region_(region), triangles_(triangles), ways_(ways) {}
 
-  /// Whether no triangle turns over in the end.
+  /// Whether none does in the end.
   bool run() {
     constexpr int rounds = 30;
     constexpr int smooth_rounds = 12;
     for (int round = 0; round < rounds; ++round) {
-      if (getenv("REGDBG2")) { find_turned(); if(round%8==0) fprintf(stderr, "round %d: %d of %zu\n", round, turned_count_, triangles_.size()); }
       if (!find_turned()) return true;
       if (round < smooth_rounds) {
         smooth();
@@ -124,56 +127,34 @@ class Settling {
   }
 
  private:
-  [[nodiscard]] Point moved(std::uint32_t i) const {
-    return {region_.points[i].x + ways_[i].x, region_.points[i].y + ways_[i].y};
-  }
-
   /// Finds the ends of moved edges that cross or touch others, or that have the region on the wrong
-  /// side.
+  /// side; and points that have become one with others.
   bool find_turned() {
     is_turned_.assign(ways_.size(), false);
-    turned_count_ = 0;
-    Region moved = region_;
-    for (std::uint32_t i = 0; i < ways_.size(); ++i) moved.points[i] = this->moved(i);
     Triangulation mesh;
+    const Region moved = loft::moved(region_, ways_);
     mesh.reserve(moved.points.size());
     insert_loops(moved, mesh);
     const std::vector<std::uint32_t> point = points_of_vertices(moved, mesh);
     const std::vector<bool> is_inside = cdt::odd_parity(mesh);
-    const auto flag = [&](cdt::VertexId v) {
-      if (point[v.index()] == Origin::none) return;
-      is_turned_[point[v.index()]] = true;
-      ++turned_count_;
-    };
-    if (mesh.vertex_count() != moved.points.size() || !mesh.snaps().empty()) {
-      std::vector<std::uint32_t> uses(mesh.vertex_bound());
-      for (std::uint32_t s = 0; s < mesh.segment_bound(); ++s)
-        ++uses[mesh.segment(cdt::SegmentId(s)).from.index()];
-    }
+    std::vector<bool> is_alone(ways_.size());
+    for (const std::uint32_t i : point)
+      if (i != Origin::none) is_alone[i] = true;
     for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i) {
       const EdgeId e(i);
-      if (!mesh.is_triangle(Triangulation::triangle(e))) continue;
       for (const cdt::Passage passage : mesh.passages(e)) {
-        if (!mesh.is_forward(e, passage)) continue;
         const cdt::Segment& segment = mesh.segment(passage.segment());
+        const bool is_boundary = is_inside[Triangulation::triangle(e).index()] &&
+                                 !is_inside[Triangulation::triangle(mesh.twin(e)).index()];
         const bool is_whole = segment.from == mesh.from(e) && segment.to == mesh.to(e);
-        const bool is_single = mesh.passages(e).size() == 1;
-        if (is_whole && is_single && is_inside[Triangulation::triangle(e).index()] &&
-            !is_inside[Triangulation::triangle(mesh.twin(e)).index()])
-          continue;
-        flag(segment.from);
-        flag(segment.to);
+        if (!mesh.is_forward(e, passage) || (is_boundary && is_whole)) continue;
+        for (const cdt::VertexId v : {segment.from, segment.to})
+          is_turned_[point[v.index()]] = true;
       }
     }
-    // Points that have become one.
-    if (turned_count_ == 0 && mesh.vertex_count() != moved.points.size()) {
-      std::vector<bool> is_found(ways_.size(), false);
-      for (const std::uint32_t i : point)
-        if (i != Origin::none) is_found[i] = true;
-      for (std::size_t i = 0; i < ways_.size(); ++i)
-        if (!is_found[i]) is_turned_[i] = true, ++turned_count_;
-    }
-    return turned_count_ > 0;
+    for (std::size_t i = 0; i < ways_.size(); ++i)
+      if (!is_alone[i]) is_turned_[i] = true;
+    return std::ranges::find(is_turned_, true) != is_turned_.end();
   }
 
   /// Half way to the mean of all around.
@@ -195,7 +176,7 @@ class Settling {
                     (ways_[i].y + sums[i].y / counts[i]) / 2};
   }
 
-  /// Where triangles turn over, and around there.
+  /// Where something is wrong, and around there.
   void shorten() {
     std::vector<bool> is_near = is_turned_;
     for (const Corner& t : triangles_)
@@ -208,10 +189,21 @@ class Settling {
   const Region& region_;
   std::span<const Corner> triangles_;
   std::vector<Point>& ways_;
-  std::vector<bool> is_turned_; int turned_count_ = 0;
+  std::vector<bool> is_turned_;  // points where something is wrong
 };
 
 }  // namespace
+
+Region moved(const Region& region, std::span<const Point> ways) {
+  const auto add = [](double x, double way) {
+    const double sum = x + way;
+    return std::abs(sum) < Triangulation::smallest_coordinate ? 0 : sum;
+  };
+  Region made = region;
+  for (std::size_t i = 0; i < ways.size(); ++i)
+    made.points[i] = {add(region.points[i].x, ways[i].x), add(region.points[i].y, ways[i].y)};
+  return made;
+}
 
 std::optional<Displacement> Displacement::fit(const Region& region, std::span<const Pull> pulls,
                                               double softness) {
@@ -228,7 +220,7 @@ std::optional<Displacement> Displacement::fit(const Region& region, std::span<co
       const Point way = affine.way(region.points[i]);
       (*ways)[i] = {(*ways)[i].x + way.x, (*ways)[i].y + way.y};
     }
-  if (!ways || !Settling(region, triangles, *ways).run()) return {};
+  if (!ways || !are_usable(region, *ways) || !Settling(region, triangles, *ways).run()) return {};
   Displacement made;
   made.ways_ = std::move(*ways);
   return made;

@@ -10,14 +10,18 @@
 
 namespace loft {
 
-/// A displacement of the points of a region, smooth over the plane and an embedding: it moves every
-/// triangle of the region's CDT, inside and outside, without turning it over (exact).
+/// A region whose points have gone their ways.
+[[nodiscard]] Region moved(const Region& region, std::span<const cdt::Point> ways);
+
+/// A displacement of the points of a region, smooth over the plane, that leaves it a region: moved,
+/// its loops neither cross nor touch in new places, and the region is on their left (exact).
 class Displacement {
  public:
-  /// The least squares of pulls and of the change along edges of the CDT: what happens over a
-  /// distance below `softness` is smoothed. Where a triangle would turn over the ways
-  /// are smoothed further, then shortened; none if that does not help.
-  /// Cost: that of the CDT, and of a sparse symmetric system with a row a point.
+  /// The affine map with the least squares of the pulls; what is left by the least squares of pulls
+  /// and of the change along edges of the region's CDT, so that what happens over a distance below
+  /// `softness` is smoothed. Where loops would cross, the ways are smoothed further, then
+  /// shortened; none if that does not help. Cost: that of the CDT, some times, and of a sparse
+  /// symmetric system with a row a point.
   [[nodiscard]] static std::optional<Displacement> fit(const Region& region,
                                                        std::span<const Pull> pulls,
                                                        double softness);

@@ -18,7 +18,7 @@ constexpr std::size_t most_loops = 256;
 
 struct LoopShape {
   bool is_hole;
-  double size;  // of a square with its area
+  double size;   // of a square with its area
   Point centre;  // of its line
 };
 

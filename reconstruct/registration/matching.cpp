@@ -60,8 +60,8 @@ class Course {
     std::size_t i = lower_.size() - 1;
     std::size_t j = upper_.size() - 1;
     while (true) {
-      found.push_back({static_cast<std::uint32_t>(lower_index(i)),
-                       static_cast<std::uint32_t>(upper_index(j))});
+      found.push_back(
+          {static_cast<std::uint32_t>(lower_index(i)), static_cast<std::uint32_t>(upper_index(j))});
       if (i == 0 && j == 0) return found;
       const Step step = steps_[starts_[i] + j - ranges_[i].first];
       if (step != Step::upper) --i;
@@ -87,8 +87,7 @@ class Course {
       const double cost = costs_(a, b);
       double best = i == 0 && j == 0 ? 2 * cost : infinity;
       Step step = Step::both;
-      if (i > 0 && j > 0 && before_[j - 1] + 2 * cost < best)
-        best = before_[j - 1] + 2 * cost;
+      if (i > 0 && j > 0 && before_[j - 1] + 2 * cost < best) best = before_[j - 1] + 2 * cost;
       if (i > 0 && before_[j] + cost + costs_.pace_weight < best) {
         best = before_[j] + cost + costs_.pace_weight;
         step = Step::lower;
@@ -211,8 +210,7 @@ Band band(const std::vector<Match>& course, const Sample& lower, const Sample& u
 }  // namespace
 
 std::vector<Match> match_outlines(std::span<const Stretch> lower, std::span<const Stretch> upper,
-                                  double direction_weight, double pace_weight,
-                                  std::size_t coarse) {
+                                  double direction_weight, double pace_weight, std::size_t coarse) {
   const Costs costs{direction_weight, pace_weight};
   const Sample below = sample(lower, coarse);
   const Sample above = sample(upper, coarse);

@@ -12,15 +12,15 @@ namespace loft {
 /// A short stretch of an edge of a loop.
 struct Stretch {
   cdt::Point middle;
-  cdt::Point normal;      ///< of length 1, out of the region
+  cdt::Point normal;  ///< of length 1, out of the region
   double length = 0;
   std::uint32_t from = 0;  ///< the edge, by indices of the region's points
   std::uint32_t to = 0;
   double share = 0;  ///< of the way from `from` to `to` at which the middle is
 };
 
-/// A loop as `count` stretches of the same length, each with the direction that it has in its middle; they begin
-/// at the loop's first point. Cost: O(count + points).
+/// A loop as `count` stretches of the same length, each with the direction that it has in its
+/// middle; they begin at the loop's first point. Cost: O(count + points).
 [[nodiscard]] std::vector<Stretch> stretches(const Region& region, std::uint32_t loop,
                                              std::size_t count);
 

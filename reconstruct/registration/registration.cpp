@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -22,31 +20,25 @@ namespace {
 
 using cdt::Point;
 
-double env(const char* name, double otherwise) {
-  const char* v = std::getenv(name);
-  return v ? std::atof(v) : otherwise;
-}
-#define REASON(...) do { if (getenv("REGDBG")) fprintf(stderr, __VA_ARGS__); } while (0)
+/// Lengths in units of the regions' thickness: what happens over less is smoothed, and how far a
+/// crossing may go aside when it is taken out. With half and twice the former the tiles of folded
+/// walls were the same but for a hundredth of the volume.
+constexpr double softness = 0.5;
+constexpr double most_drift = 0.25;
 
-/// Lengths in units of the regions' thickness.
-const double softness = env("SOFT", 0.5);
-const double near = env("NEAR", 0.02);
-const double most_askew = env("SKEW", 0.1);
-const double most_drift = env("DRIFT", 0.25);
+/// In squares of the distance between the loops: what it costs to change the direction, and to
+/// stand still on one loop. With a quarter of the former walls are matched with the wrong side of
+/// others.
+constexpr double direction_weight = 4;
+constexpr double pace_weight = 0.5;
 
-/// In squares of the distance between the loops: what a change of direction costs, and to stand
-/// still on one loop.
-const double direction_weight = env("DIRECTION", 4);
-const double pace_weight = env("PACE", 0.5);
-
-/// Places of a loop, that many for each thickness of its length.
-constexpr double fewest_places = 48;
-const double most_places = env("COARSE", 128);
+/// Places of a loop, one for each thickness of its length, and stretches between two of them.
+constexpr double fewest_places = 32;
+constexpr double most_places = 128;
 constexpr std::size_t stretches_of_place = 4;
 
 /// Matched that often, each time with the affine part of what was found before taken out.
-const int rounds = static_cast<int>(env("ROUNDS", 3));
-const int splits = static_cast<int>(env("SPLITS", 2));
+constexpr int rounds = 3;
 
 /// The mean thickness: of a long wall what it is, of a disc its radius.
 double thickness_of(const Region& region) { return 2 * area(region) / perimeter(region); }
@@ -109,13 +101,17 @@ void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
 class Registration {
  public:
   Registration(const Region& lower, const Region& upper)
-      : lower_(lower), upper_(upper), thickness_(std::min(thickness_of(lower), thickness_of(upper))) {}
+      : lower_(lower),
+        upper_(upper),
+        thickness_(std::min(thickness_of(lower), thickness_of(upper))) {}
 
   [[nodiscard]] double thickness() const { return thickness_; }
   [[nodiscard]] std::span<const Pull> lower_pulls() const { return lower_pulls_; }
   [[nodiscard]] std::span<const Pull> upper_pulls() const { return upper_pulls_; }
-  /// From the upper region back to the lower one.
-  [[nodiscard]] const Affine& back() const { return back_; }
+  [[nodiscard]] Motion motion() const {
+    const auto& [centre, shift, along_x, along_y] = back_;
+    return {{-shift.x, -shift.y}, -std::atan2(along_x.y - along_y.x, 2 + along_x.x + along_y.y)};
+  }
 
   /// False if their loops do not belong together.
   bool match(Point offset) {
@@ -145,9 +141,8 @@ class Registration {
     auto& [lower, upper, matches] = outlines;
     std::vector<Stretch> moved = upper;
     for (Stretch& stretch : moved) stretch = back_.moved(stretch);
-    const double distance =
-        std::max({thickness_ * thickness_, mean_square_distance(lower, moved),
-                  mean_square_distance(moved, lower)});
+    const double distance = std::max({thickness_ * thickness_, mean_square_distance(lower, moved),
+                                      mean_square_distance(moved, lower)});
     matches = match_outlines(lower, moved, direction_weight * distance, pace_weight * distance,
                              lower.size() / stretches_of_place);
   }
@@ -179,42 +174,26 @@ class Registration {
   Affine back_;
 };
 
-/// Takes the crossings out of tiles that were put back, and follows the way back more closely.
-/// False if they meet.
-bool finish(const Region& lower, const Region& upper, double thickness, std::size_t most_pairs,
-            Frame& frame, TileSet& tiles) {
-  for (int i = 0; i < splits; ++i) frame.split_askew(tiles, most_askew * thickness);
-  collapse_crossings(lower, upper, tiles, true, most_drift * thickness);
-  for (int i = 0; i < splits; ++i) frame.split_askew(tiles, most_askew * thickness);
-  std::size_t pairs_left = most_pairs;
-  if (tiles_meet(lower, upper, tiles, pairs_left)) { REASON("skew meet\n"); return false; }
-  return true;
-}
-
 }  // namespace
 
 std::optional<Registered> tile_registered(const Region& lower, const Region& upper, Point offset,
                                           std::size_t most_pairs) {
   Registration registration(lower, upper);
-  if (!registration.match(offset)) { REASON("no match\n"); return {}; }
+  if (!registration.match(offset)) return {};
   const double thickness = registration.thickness();
   const auto below = Displacement::fit(lower, registration.lower_pulls(), softness * thickness);
   const auto above = Displacement::fit(upper, registration.upper_pulls(), softness * thickness);
-  if (!below || !above) { REASON("no embedding\n"); return {}; }
-  Frame frame(lower, upper, below->ways(), above->ways());
-  auto tiles = tile_with_crossings(frame.lower(), frame.upper(), near * thickness, most_pairs);
-  if (!tiles) { REASON("no tiles\n"); return {}; }
-  Registered made;
-  made.difference = frame.covered(*tiles);
+  if (!below || !above) return {};
+  const Frame frame(lower, upper, below->ways(), above->ways());
+  auto tiles = tile_with_crossings(frame.lower(), frame.upper(), most_pairs);
+  if (!tiles) return {};
+  const double difference = frame.covered(*tiles);
   frame.put_back(*tiles);
-  if (!finish(lower, upper, thickness, most_pairs, frame, *tiles)) return {};
-  made.tiles = std::move(*tiles);
-  made.tiles.is_plain = false;
-  const Point away = registration.back().shift;
-  const Affine& back = registration.back();
-  made.motion = {{-away.x, -away.y},
-                 -std::atan2(back.along_x.y - back.along_y.x, 2 + back.along_x.x + back.along_y.y)};
-  return made;
+  collapse_crossings(lower, upper, *tiles, true, most_drift * thickness);
+  tiles->is_plain = false;
+  std::size_t pairs_left = most_pairs;
+  if (tiles_meet(lower, upper, *tiles, pairs_left)) return {};
+  return Registered{std::move(*tiles), difference, registration.motion()};
 }
 
 }  // namespace loft

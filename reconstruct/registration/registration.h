@@ -22,16 +22,17 @@ struct Registered {
   Motion motion;
 };
 
-/// The tiles between two regions with as many outer loops and as many holes, chosen while both are moved half way
-/// over each other, each by a displacement of the plane that its loops' matches suggest: what turns, folds
-/// or slants is joined with what it becomes, although it does not overlap. Contour vertices are
-/// where they always were; others are put back by their height's share. Faces that turn get
-/// vertices in the middle of their edges.
+/// The tiles between two regions with as many outer loops and as many holes, chosen while both are
+/// moved half way over each other, each by a displacement of the plane that its loops' matches
+/// suggest: what turns, folds or slants is joined with what it becomes, although it does not
+/// overlap. Contour vertices are where they always were; others are put back by their height's
+/// share.
 ///
-/// `offset` is about where the upper region is, from the lower one. None if no displacement is an embedding, or if the tiles
-/// meet (exact). A function of the regions alone, and the same, but for rounding, if they are turned, mirrored
-/// or exchanged. Cost: that of the CDT of both and of each, of a sparse linear system, and of
-/// matching_places^3; no more than `most_pairs` pairs of tiles are tested.
+/// `offset` is about where the upper region is, from the lower one. None if no displacement is an
+/// embedding, or if the tiles meet (exact). A function of the regions alone, and the same, but for
+/// rounding, if they are turned, mirrored or exchanged. Cost: that of the CDT of both and of each,
+/// of a sparse linear system, and of the cube of the places that loops are matched at (at most
+/// 128); no more than `most_pairs` pairs of tiles are tested.
 [[nodiscard]] std::optional<Registered> tile_registered(const Region& lower, const Region& upper,
                                                         cdt::Point offset, std::size_t most_pairs);
 

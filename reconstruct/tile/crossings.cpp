@@ -64,8 +64,10 @@ using Nodes = std::array<std::uint32_t, 3>;
 
 class Collapse {
  public:
-  Collapse(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid, std::optional<double> drift)
-      : drift_(drift), tiles_(tiles.tiles),
+  Collapse(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid,
+           std::optional<double> drift)
+      : drift_(drift),
+        tiles_(tiles.tiles),
         inner_(tiles.inner),
         reaches_(tiles.reaches),
         sign_(is_solid ? 1 : -1),
@@ -326,10 +328,12 @@ class Collapse {
     const auto& [sheets, most, stretch, reach] = measured(p);
     const double gain = sign_ * gained_area(place(p), corners_, height_);
     if (!(std::abs(gain) <= most)) return std::nullopt;
-    if (sideways_drift(place(p), corners_) > drift_.value_or(most_drift * sheets.width)) return std::nullopt;
+    if (sideways_drift(place(p), corners_) > drift_.value_or(most_drift * sheets.width))
+      return std::nullopt;
     const double shape = worst_shape(corners_, stretch);
     if (!(shape > least_shape)) return std::nullopt;
-    const double off = sheets.area > 0 ? std::abs(gain / sheets.area - (drift_ ? 0 : fair_gain)) : 0;
+    const double off =
+        sheets.area > 0 ? std::abs(gain / sheets.area - (drift_ ? 0 : fair_gain)) : 0;
     return shape * std::exp(-weight_of_gain * off);
   }
 
@@ -436,7 +440,8 @@ class Collapse {
 
 }  // namespace
 
-bool collapse_crossings(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid, std::optional<double> drift) {
+bool collapse_crossings(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid,
+                        std::optional<double> drift) {
   return Collapse(lower, upper, tiles, is_solid, drift).run();
 }
 

@@ -17,6 +17,7 @@ namespace loft {
 /// look into the solid, as those of a cavity that is looked at alone. False is given back if the
 /// bounds of effort have decided something: then that depends on all there is.
 /// Cost: in practice constant a crossing, plus O(tiles) if there is one.
-bool collapse_crossings(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid, std::optional<double> drift = {});
+bool collapse_crossings(const Region& lower, const Region& upper, TileSet& tiles, bool is_solid,
+                        std::optional<double> drift = {});
 
 }  // namespace loft

@@ -344,7 +344,8 @@ TileSet tile_end(const Region& lower, const Region& upper, TileWorkspace& worksp
 /// Where a slice has slivers that are little wider than rounding, no overlay is exact: then one
 /// will do if all that is asked of its tiles holds.
 std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
-                                  std::size_t most_pairs, bool collapses, TileWorkspace& workspace) {
+                                  std::size_t most_pairs, bool collapses,
+                                  TileWorkspace& workspace) {
   if (lower.is_empty() || upper.is_empty()) return tile_end(lower, upper, workspace);
   const Scale lengths = scale(lower, upper);
   std::size_t pairs_left = most_pairs;
@@ -354,7 +355,8 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
       const double step = attempt * lengths.shear;
       const Point shear{shift.x + step * std::cos(turn), shift.y + step * std::sin(turn)};
       const bool is_first = overlay == Overlay::exact && attempt == 0;
-      const Attempt here{shear, overlay, lengths.tight, is_first ? contact_of(lengths.tight) : 0, collapses};
+      const Attempt here{shear, overlay, lengths.tight, is_first ? contact_of(lengths.tight) : 0,
+                         collapses};
       if (auto tiles = tile_sheared(lower, upper, here, pairs_left, workspace)) return tiles;
       if (pairs_left == 0) return std::nullopt;
     }
@@ -407,14 +409,9 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
   return tile_moved(lower, upper, shift, most_pairs, true, workspace);
 }
 
-std::optional<TileSet> tile_with_crossings(const Region& lower, const Region& upper, double near,
+std::optional<TileSet> tile_with_crossings(const Region& lower, const Region& upper,
                                            std::size_t most_pairs) {
   TileWorkspace workspace;
-  if (near > 0) {
-    if (auto slab = Slab::merged(lower, upper, {}, near))
-      if (auto drafted = draft(*slab, 0, Overlay::rounded, workspace))
-        return std::move(drafted->tiles);
-  }
   return tile_moved(lower, upper, {}, most_pairs, false, workspace);
 }
 
@@ -460,7 +457,8 @@ TileSet tile_apart(const Region& lower, const Region& upper) {
 }
 
 TileSet tile(const Region& lower, const Region& upper, TileWorkspace& workspace) {
-  if (auto tiles = tile_moved(lower, upper, {}, any_number, true, workspace)) return std::move(*tiles);
+  if (auto tiles = tile_moved(lower, upper, {}, any_number, true, workspace))
+    return std::move(*tiles);
   return tile_apart(lower, upper);
 }
 

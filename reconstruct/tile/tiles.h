@@ -107,7 +107,7 @@ inline constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max(
 
 /// The same tiles for regions that were moved over each other: crossings stay, for the caller to
 /// collapse once the tiles are where they belong.
-[[nodiscard]] std::optional<TileSet> tile_with_crossings(const Region& lower, const Region& upper, double near,
+[[nodiscard]] std::optional<TileSet> tile_with_crossings(const Region& lower, const Region& upper,
                                                          std::size_t most_pairs);
 
 /// Nothing is linked: each region ends before half way, whatever is above or below it.
