@@ -12,6 +12,7 @@
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/parts.h"
 #include "reconstruct/link/replace.h"
+#include "reconstruct/link/tips.h"
 
 namespace loft {
 
@@ -446,8 +447,13 @@ class Ordering {
 
 OrderedTiles tile_by_orders(const Region& lower, const Region& upper, const Options& options,
                             std::span<const SlabOrder> orders, TileWorkspace& workspace) {
+  if (auto tips = find_tips(lower, upper); !tips.empty())
+    return tile_beside(lower, upper, std::move(tips), orders,
+                       [&](const Region& below, const Region& above, auto left) {
+                         return tile_by_orders(below, above, options, left, workspace);
+                       });
   const bool is_plain = orders.empty() && options.link != LinkRule::none;
-  const bool is_end = lower.is_empty() || upper.is_empty();
+  const bool is_end = !lower.has_loops() || !upper.has_loops();
   if (!is_plain && !is_end) return Ordering(lower, upper, options, orders).run();
   OrderedTiles plain;
   plain.tiles = tile(lower, upper, workspace);

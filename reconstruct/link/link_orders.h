@@ -63,6 +63,8 @@ struct OrderedTiles {
 /// before half way. All these tiles must not meet (exact test), else the last order that takes part
 /// in it is refused and the slab done again without it. LinkRule::none leaves only the linked ones.
 /// Without orders and for the other rules this is tile(). With LinkRule::automatic, pieces slide.
+/// Parts that end in points or lines of the other slice are tiled first (find_tips()), whatever the
+/// rule; the rest as if they were not there.
 [[nodiscard]] OrderedTiles tile_by_orders(const Region& lower, const Region& upper,
                                           const Options& options, std::span<const SlabOrder> orders,
                                           TileWorkspace& workspace);

@@ -244,12 +244,12 @@ class StackEdit {
     const bool is_dome = stack_.options.cap == Cap::dome;
     if (is_dome) round_off(first, last);
     std::vector<Station*> line;
-    if (is_dome && is_bottom && !first->second.region->is_empty()) line.push_back(&stack_.below);
+    if (is_dome && is_bottom && first->second.region->has_loops()) line.push_back(&stack_.below);
     for (auto station = from;; ++station) {
       line.push_back(&station->second);
       if (station == to) break;
     }
-    if (is_dome && is_top && !last->second.region->is_empty()) line.push_back(&stack_.above);
+    if (is_dome && is_top && last->second.region->has_loops()) line.push_back(&stack_.above);
     return {stack_, std::move(line), is_bottom, is_top};
   }
 
