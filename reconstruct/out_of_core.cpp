@@ -230,7 +230,7 @@ class Work {
     for (std::size_t i = first == 0 ? 0 : first + 1; i <= last; ++i) {
       if (regions_[i].line_count() == 0) continue;
       const bool has_above = i < linking_.slab_bound();
-      const TileSet* const above = i < last ? &slabs[i - first]
+      const TileSet* const above = i < last    ? &slabs[i - first]
                                    : has_above ? &linking_.tiles(i)
                                                : nullptr;
       used_[i] = UsedPoints(regions_[i], i > 0 ? &regions_[i - 1] : nullptr,

@@ -74,9 +74,8 @@ void report_unlinked(std::span<const Region> regions, std::span<const TileSet> s
 void report_unused_lines(std::span<const Region> regions, std::span<const Pieces> slabs,
                          std::vector<Defect>& repairs) {
   for (std::size_t i = 0; i < regions.size(); ++i)
-    for (const std::uint32_t line :
-         unused_lines(regions[i], i > 0 ? &slabs[i - 1] : nullptr,
-                      i < slabs.size() ? &slabs[i] : nullptr))
+    for (const std::uint32_t line : unused_lines(regions[i], i > 0 ? &slabs[i - 1] : nullptr,
+                                                 i < slabs.size() ? &slabs[i] : nullptr))
       repairs.push_back(unused_line(regions[i], line));
 }
 

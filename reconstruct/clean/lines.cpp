@@ -56,7 +56,8 @@ class Lines {
     for (std::uint32_t i = 0; i < points.size(); ++i) firsts.try_emplace(points[i], i);
     Line line{contour, {}, {}};
     for (const auto& [place, number] : firsts) {
-      if (!line.places.empty() && distance(place, line.places.back(), line.places.back()) < nearest_)
+      if (!line.places.empty() &&
+          distance(place, line.places.back(), line.places.back()) < nearest_)
         continue;
       line.places.push_back(place);
       line.numbers.push_back(number);
@@ -98,8 +99,8 @@ class Lines {
     for (const Segment& edge : edges) boxes.push_back(box(edge));
     const BoxTree tree(boxes);
     std::erase_if(lines_, [&](const Line& line) {
-      bool is_at = std::ranges::any_of(
-          line.places, [&](Point p) { return inside.at(p).distance <= nearest_; });
+      bool is_at = std::ranges::any_of(line.places,
+                                       [&](Point p) { return inside.at(p).distance <= nearest_; });
       for (const Segment& s : segments(line))
         tree.for_each_meeting(box(s), [&](std::uint32_t e) {
           is_at = is_at || cross(s, edges[e]) || distance(edges[e][0], s[0], s[1]) <= nearest_;
@@ -182,9 +183,7 @@ void add_lines(Region& region, std::span<const ContourSource> contours,
 
 Defect dropped_line(double z, std::uint32_t slice, std::uint32_t contour, std::size_t places,
                     const char* why) {
-  const std::string what = places == 0   ? "has no points"
-                           : places == 1 ? "is a point"
-                                         : "has all its points in one line,";
+  const std::string what = places == 0 ? "has no points" : places == 1 ? "is a point" : "is a line";
   return {places < 3 ? DefectKind::too_few_points : DefectKind::zero_area,
           z,
           slice,
@@ -198,9 +197,9 @@ Defect dropped_line(double z, std::uint32_t slice, std::uint32_t contour, std::s
 Defect unused_line(const Region& region, std::size_t line) {
   const auto vertices = region.line(line);
   const Origin& origin = region.line_origins[line];
-  Defect defect = dropped_line(
-      region.z, origin.slice, origin.contour, vertices.size(),
-      " that no part ends in: none covers it that does not go on in this slice");
+  Defect defect =
+      dropped_line(region.z, origin.slice, origin.contour, vertices.size(),
+                   " that no part ends in: none covers it that does not go on in this slice");
   defect.place = region.points[vertices.front()];
   return defect;
 }

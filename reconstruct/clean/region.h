@@ -20,9 +20,9 @@ namespace loft {
 /// of a neighbouring slice that would end before this one may end in them, in an apex or a ridge.
 struct Region {
   double z = 0;
-  std::uint32_t slice = 0;                   ///< index of the slice in the input
+  std::uint32_t slice = 0;         ///< index of the slice in the input
   std::vector<cdt::Point> points;  ///< the vertices of the loops, then those of lines, each once
-  std::vector<Origin> origins;               ///< where each point comes from
+  std::vector<Origin> origins;     ///< where each point comes from
   std::vector<std::uint32_t> loop_vertices;  ///< indices of points, loop after loop
   std::vector<std::uint32_t> loop_starts;    ///< where each loop starts in them, and their number
   std::vector<std::uint32_t> line_vertices;  ///< indices of points from end to end, line after line

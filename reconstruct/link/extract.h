@@ -10,8 +10,8 @@
 
 namespace loft {
 
-/// Some loops, and lines, of a region as a region of their own. Where they bound a cavity, turned round: its
-/// inside becomes the region's.
+/// Some loops, and lines, of a region as a region of their own. Where they bound a cavity, turned
+/// round: its inside becomes the region's.
 class Extract {
  public:
   Extract(const Region& region, std::span<const std::uint32_t> loops, bool is_solid,

@@ -447,11 +447,17 @@ class Ordering {
 
 OrderedTiles tile_by_orders(const Region& lower, const Region& upper, const Options& options,
                             std::span<const SlabOrder> orders, TileWorkspace& workspace) {
-  if (auto tips = find_tips(lower, upper); !tips.empty())
-    return tile_beside(lower, upper, std::move(tips), orders,
-                       [&](const Region& below, const Region& above, auto left) {
-                         return tile_by_orders(below, above, options, left, workspace);
-                       });
+  if (auto tips = find_tips(lower, upper); !tips.empty()) {
+    Options unmoved = options;  // what slides must meet no tip
+    if (options.link == LinkRule::automatic) unmoved.link = LinkRule::overlap;
+    auto all = tile_beside(lower, upper, std::move(tips), orders,
+                           [&](const Region& below, const Region& above, auto left) {
+                             return tile_by_orders(below, above, unmoved, left, workspace);
+                           });
+    if (all && options.link == LinkRule::automatic)
+      slide(lower, upper, all->tiles, all->pieces, options.max_shift);
+    if (all) return std::move(*all);
+  }
   const bool is_plain = orders.empty() && options.link != LinkRule::none;
   const bool is_end = !lower.has_loops() || !upper.has_loops();
   if (!is_plain && !is_end) return Ordering(lower, upper, options, orders).run();

@@ -51,9 +51,7 @@ struct Piece {
   }
   /// Whether it ends in points and lines of the other slice.
   [[nodiscard]] bool is_tip() const { return !lower.lines.empty() || !upper.lines.empty(); }
-  [[nodiscard]] bool is_end() const {
-    return (lower.is_empty() || upper.is_empty()) && !is_tip();
-  }
+  [[nodiscard]] bool is_end() const { return (lower.is_empty() || upper.is_empty()) && !is_tip(); }
 };
 
 /// The pieces of a slab, by their smallest contour points.

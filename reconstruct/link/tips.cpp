@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "mesh/box_tree.h"
@@ -138,27 +139,76 @@ class Beside {
         below_(rest_of(lower, Level::lower, tips_)),
         above_(rest_of(upper, Level::upper, tips_)) {}
 
-  OrderedTiles run(std::span<const SlabOrder> orders, const TileRest& tile_rest) {
+  std::optional<OrderedTiles> run(std::span<const SlabOrder> orders, const TileRest& tile_rest) {
     std::vector<Refusal> refusals;
-    const std::vector<SlabOrder> left = orders_left(orders, refusals);
-    const Extract below(lower_, below_.loops, true);
-    const Extract above(upper_, above_.loops, true);
-    OrderedTiles all = tile_rest(below.region(), above.region(), left);
-    all.refusals.insert(all.refusals.begin(), refusals.begin(), refusals.end());
-    const auto lower_count = static_cast<std::uint32_t>(lower_.points.size());
-    const auto upper_count = static_cast<std::uint32_t>(upper_.points.size());
-    all.tiles = embedded(std::move(all.tiles), below, above, lower_count, upper_count, true);
-    all.tiles.is_plain = false;
-    for (Piece& piece : all.pieces.pieces) {
-      for (std::uint32_t& loop : piece.lower.loops) loop = below_.loops[loop];
-      for (std::uint32_t& loop : piece.upper.loops) loop = above_.loops[loop];
+    std::vector<SlabOrder> left = orders_left(orders, refusals);
+    OrderedTiles all = rest(left, tile_rest);
+    bool is_met = meets_tip(all.tiles);
+    if (is_met && !left.empty()) {  // parts that orders move go anywhere
+      for (const SlabOrder& order : left)
+        if (order.is_link)
+          refusals.push_back({order.order, "tiles would meet others between the slices"});
+      std::erase_if(left, &SlabOrder::is_link);
+      all = rest(left, tile_rest);
+      is_met = meets_tip(all.tiles);
     }
-    for (const Tip& tip : tips_) add(tip, lower_count + upper_count, all);
+    if (is_met) return {};
+    all.refusals.insert(all.refusals.begin(), refusals.begin(), refusals.end());
+    for (const Tip& tip : tips_) add(tip, all);
     sort(all);
     return all;
   }
 
  private:
+  [[nodiscard]] std::uint32_t lower_count() const {
+    return static_cast<std::uint32_t>(lower_.points.size());
+  }
+  [[nodiscard]] std::uint32_t upper_count() const {
+    return static_cast<std::uint32_t>(upper_.points.size());
+  }
+
+  /// What is no tip, as a part of the slab.
+  [[nodiscard]] OrderedTiles rest(std::span<const SlabOrder> orders,
+                                  const TileRest& tile_rest) const {
+    const Extract below(lower_, below_.loops, true);
+    const Extract above(upper_, above_.loops, true);
+    OrderedTiles all = tile_rest(below.region(), above.region(), orders);
+    all.tiles = embedded(std::move(all.tiles), below, above, lower_count(), upper_count(), true);
+    all.tiles.is_plain = false;
+    for (Piece& piece : all.pieces.pieces) {
+      for (std::uint32_t& loop : piece.lower.loops) loop = below_.loops[loop];
+      for (std::uint32_t& loop : piece.upper.loops) loop = above_.loops[loop];
+    }
+    return all;
+  }
+
+  [[nodiscard]] bool meets_tip(const TileSet& tiles) const {
+    const auto places = [&](const TileSet& of, const Tile& tile) {
+      Corners corners;
+      for (unsigned i = 0; i < 3; ++i)
+        corners[i] = place_of(lower_, upper_, of.inner, tile.nodes[i]);
+      return corners;
+    };
+    const auto around = [](const Corners& c) { return box_around(c[0], c[1], c[2]); };
+    std::vector<Corners> corners;
+    std::vector<Box3> boxes;
+    for (const Tip& tip : tips_) {
+      for (const Tile& tile : tip.tiles.tiles) {
+        corners.push_back(places(tip.tiles, tile));
+        boxes.push_back(around(corners.back()));
+      }
+    }
+    const BoxTree tree(boxes);
+    return std::ranges::any_of(tiles.tiles, [&](const Tile& tile) {
+      const Corners here = places(tiles, tile);
+      bool is_found = false;
+      tree.for_each_meeting(around(here), [&](std::uint32_t i) {
+        is_found = is_found || triangles_meet(here, corners[i]);
+      });
+      return is_found;
+    });
+  }
+
   [[nodiscard]] std::vector<SlabOrder> orders_left(std::span<const SlabOrder> orders,
                                                    std::vector<Refusal>& refusals) const {
     std::vector<SlabOrder> left;
@@ -176,8 +226,8 @@ class Beside {
     return left;
   }
 
-  void add(const Tip& tip, std::uint32_t contour_count, OrderedTiles& all) const {
-    append(all.tiles, tip.tiles, contour_count);
+  void add(const Tip& tip, OrderedTiles& all) const {
+    append(all.tiles, tip.tiles, lower_count() + upper_count());
     const auto number = static_cast<std::uint32_t>(all.pieces.pieces.size());
     all.pieces.of_tile.resize(all.tiles.tiles.size(), number);
     Piece& piece = all.pieces.pieces.emplace_back();
@@ -218,8 +268,9 @@ std::vector<Tip> find_tips(const Region& lower, const Region& upper) {
   return TipFinder(lower, upper).run();
 }
 
-OrderedTiles tile_beside(const Region& lower, const Region& upper, std::vector<Tip> tips,
-                         std::span<const SlabOrder> orders, const TileRest& tile_rest) {
+std::optional<OrderedTiles> tile_beside(const Region& lower, const Region& upper,
+                                        std::vector<Tip> tips, std::span<const SlabOrder> orders,
+                                        const TileRest& tile_rest) {
   return Beside(lower, upper, std::move(tips)).run(orders, tile_rest);
 }
 

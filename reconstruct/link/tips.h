@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,10 +29,12 @@ struct Tip {
 using TileRest = std::function<OrderedTiles(const Region& lower, const Region& upper,
                                             std::span<const SlabOrder> orders)>;
 
-/// The tiles of a slab with tips. Orders to link a part that ends in one are refused.
-[[nodiscard]] OrderedTiles tile_beside(const Region& lower, const Region& upper,
-                                       std::vector<Tip> tips, std::span<const SlabOrder> orders,
-                                       const TileRest& tile_rest);
+/// The tiles of a slab with tips. Orders to link a part that ends in one are refused. None if tips
+/// meet anything else (exact), as they never should.
+[[nodiscard]] std::optional<OrderedTiles> tile_beside(const Region& lower, const Region& upper,
+                                                      std::vector<Tip> tips,
+                                                      std::span<const SlabOrder> orders,
+                                                      const TileRest& tile_rest);
 
 /// The lines of a region that no part ends in, by the pieces of the slabs below and above it (null:
 /// there is none).

@@ -17,8 +17,7 @@ class UsedPoints {
   UsedPoints() = default;
   /// `below`, `above`: the tiles of the slabs there, null where there is none; `lower` is the
   /// region below the slab below.
-  UsedPoints(const Region& region, const Region* lower, const TileSet* below,
-             const TileSet* above);
+  UsedPoints(const Region& region, const Region* lower, const TileSet* below, const TileSet* above);
 
   [[nodiscard]] bool has_lines() const { return region_.has_value(); }
   /// Precondition: it has lines.
@@ -34,7 +33,7 @@ class UsedPoints {
 };
 
 /// Numbers the nodes of tiles between two regions by what is used of these.
-void renumber(TileSet& tiles, const Region& lower, const Region& upper, const UsedPoints& used_lower,
-              const UsedPoints& used_upper);
+void renumber(TileSet& tiles, const Region& lower, const Region& upper,
+              const UsedPoints& used_lower, const UsedPoints& used_upper);
 
 }  // namespace loft

@@ -91,9 +91,9 @@ class TipSheet {
   std::vector<Vertex> vertices_;
   std::vector<std::uint32_t> vertex_of_;  // of each vertex of the mesh
   std::vector<Triangle> triangles_;
-  std::vector<std::uint32_t> twins_;  // of each side; none on the outline
-  std::vector<bool> is_line_;         // whether a line runs along a side
-  std::vector<std::vector<std::uint32_t>> outline_;  // what is along each edge of the part
+  std::vector<std::uint32_t> twins_;                     // of each side; none on the outline
+  std::vector<bool> is_line_;                            // whether a line runs along a side
+  std::vector<std::vector<std::uint32_t>> outline_;      // what is along each edge of the part
   using Ends = std::pair<std::uint32_t, std::uint32_t>;  // the smaller number first
   std::map<Ends, std::uint32_t> middles_;                // of pieces of the outline
   std::map<Ends, std::uint32_t> sides_;                  // where chords are

@@ -84,10 +84,10 @@ class TipTiling {
     for (auto v = roof.rbegin(); v != roof.rend(); ++v) {
       if (nodes_[*v] == first || nodes_[*v] == last) continue;
       const TipSheet::Vertex& vertex = sheet_.vertices()[*v];
-      const double way = v == roof.rbegin()       ? 1
-                         : v == roof.rend() - 1 ? 0
-                                                : std::hypot(vertex.place.x - p.x,
-                                                             vertex.place.y - p.y) / length;
+      const double way = v == roof.rbegin() ? 1
+                         : v == roof.rend() - 1
+                             ? 0
+                             : std::hypot(vertex.place.x - p.x, vertex.place.y - p.y) / length;
       polygon_.push_back(nodes_[*v]);
       flat_.push_back({way, vertex.tip != TipSheet::none ? 1 : vertex.share});
     }
