@@ -23,13 +23,13 @@ std::optional<std::pair<Stations::iterator, Stations::iterator>> LiveStack::rang
 std::vector<std::uint32_t> LiveStack::unused_lines_at(double z) const {
   const Region& region = *stations.at(z).region;
   if (region.line_count() == 0) return {};
-  const auto above = slabs.find(z);
-  const auto first_above = slabs.lower_bound(z);
-  const Pieces* below = nullptr;
-  if (first_above != slabs.begin() && std::prev(first_above)->second.frozen->info.high == z)
-    below = std::prev(first_above)->second.frozen->pieces.get();
-  return unused_lines(region, below,
-                      above == slabs.end() ? nullptr : above->second.frozen->pieces.get());
+  const auto from_here = slabs.lower_bound(z);
+  const bool is_lower = from_here != slabs.end() && from_here->first == z;
+  const bool is_upper =
+      from_here != slabs.begin() && std::prev(from_here)->second.frozen->info.high == z;
+  const auto pieces = [](const auto& slab) { return slab->second.frozen->pieces.get(); };
+  return unused_lines(region, is_upper ? pieces(std::prev(from_here)) : nullptr,
+                      is_lower ? pieces(from_here) : nullptr);
 }
 
 }  // namespace loft

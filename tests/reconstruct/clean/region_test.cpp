@@ -379,7 +379,7 @@ TEST(Clean, MakesLoopsThatMeetOnlyInVertices) {
       EXPECT_GE(area(region), 0);
       cdt::Triangulation mesh;
       insert_loops(region, mesh);
-      EXPECT_EQ(mesh.vertex_count(), region.points.size());
+      EXPECT_EQ(mesh.vertex_count(), region.loop_points().size());
       for (std::uint32_t e = 0; e < mesh.edge_bound(); ++e)
         EXPECT_LE(mesh.passages(cdt::EdgeId(e)).size(), 1U);
     }
