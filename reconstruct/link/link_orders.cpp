@@ -105,6 +105,7 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
   struct Found {
     std::uint32_t region = none;
     std::vector<std::uint32_t> loops;
+    std::optional<std::uint32_t> line;
   };
   std::map<ContourId, Found> found;
   for (const LinkOrder& order : orders) {
@@ -123,6 +124,13 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
       }
     }
   }
+  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+    for (std::uint32_t i = 0; i < regions[r].line_count(); ++i) {
+      const Origin& origin = regions[r].line_origins[i];
+      const auto place = found.find({origin.slice, origin.contour});
+      if (place != found.end()) place->second = {r, {}, i};
+    }
+  }
   for (std::uint32_t i = 0; i < orders.size(); ++i) {
     const Found& from = found[orders[i].from];
     const Found& to = found[orders[i].to];
@@ -130,9 +138,11 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
       const ContourId& missing = from.region == none ? orders[i].from : orders[i].to;
       refusals.push_back({i, name(missing) + " bounds nothing after cleaning"});
     } else if (from.region + 1 == to.region) {
-      of_slabs[from.region].push_back({i, orders[i].is_link, from.loops, to.loops});
+      of_slabs[from.region].push_back(
+          {i, orders[i].is_link, from.loops, to.loops, from.line, to.line});
     } else if (to.region + 1 == from.region) {
-      of_slabs[to.region].push_back({i, orders[i].is_link, to.loops, from.loops});
+      of_slabs[to.region].push_back(
+          {i, orders[i].is_link, to.loops, from.loops, to.line, from.line});
     } else {
       refusals.push_back({i, "an empty slice lies between them"});
     }
@@ -446,7 +456,10 @@ class Ordering {
 }  // namespace
 
 OrderedTiles tile_by_orders(const Region& lower, const Region& upper, const Options& options,
-                            std::span<const SlabOrder> orders, TileWorkspace& workspace) {
+                            std::span<const SlabOrder> all_orders, TileWorkspace& workspace) {
+  std::vector<SlabOrder> orders;
+  for (const SlabOrder& order : all_orders)
+    if (!order.has_line()) orders.push_back(order);
   if (auto tips = find_tips(lower, upper); !tips.empty()) {
     Options unmoved = options;  // what slides must meet no tip
     if (options.link == LinkRule::automatic) unmoved.link = LinkRule::overlap;

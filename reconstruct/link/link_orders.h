@@ -19,12 +19,17 @@ namespace loft {
 [[nodiscard]] std::vector<std::string> find_bad_orders(std::span<const Slice> slices,
                                                        std::span<const LinkOrder> orders);
 
-/// An order to one slab: the loops that its two contours became.
+/// An order to one slab: the loops, or the line, that each of its two contours became.
 struct SlabOrder {
   std::uint32_t order = 0;  ///< index among all orders
   bool is_link = true;
   std::vector<std::uint32_t> lower;  ///< loops of the lower region
   std::vector<std::uint32_t> upper;
+  std::optional<std::uint32_t> lower_line{};
+  std::optional<std::uint32_t> upper_line{};
+
+  /// Whether it is about a point or a line: what ends in one does so without an order.
+  [[nodiscard]] bool has_line() const { return lower_line || upper_line; }
 };
 
 /// An order that was not met, and why.

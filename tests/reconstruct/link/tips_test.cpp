@@ -285,6 +285,17 @@ TEST(Tips, AnOrderToLinkWhatEndsInOneIsRefused) {
   EXPECT_EQ(solids::faults(made.surface), "");
 }
 
+TEST(Tips, AnOrderToLinkAPartWithItsPointIsMet) {
+  const std::vector<Slice> slices{{0, {square(2)}},
+                                  {3, {contour({{0, 0}}), contour({{9, 0}}), square(2, {20, 0})}}};
+  const auto repairs = [&](std::uint32_t to) {
+    return reconstruct(slices, {.links = {{.from = {0, 0}, .to = {1, to}}}}).repairs;
+  };
+  EXPECT_EQ(repairs(0).size(), 1U) << "the other point is dropped";
+  ASSERT_EQ(repairs(1).size(), 2U);
+  EXPECT_EQ(repairs(1)[0].kind, DefectKind::refused_link);
+}
+
 TEST(Tips, ReportsNameTheContourThatAPartEndsIn) {
   const std::vector<Slice> slices{{0, {square(2)}}, {3, {square(1, {9, 0}), contour({{0, 0}})}}};
   const auto slabs = reconstruct(slices, {.reports_slabs = true}).slabs;
