@@ -271,7 +271,7 @@ std::vector<std::uint32_t> TipSheet::chords() const {
   for (std::uint32_t h = 0; h < twins_.size(); ++h)
     if (is_chord(h) && (twins_[h] == none || h < twins_[h])) all.push_back(h);
   const auto key = [&](std::uint32_t h) {
-    const auto [a, b] = std::minmax(place(from(h)), place(to(h)));
+    const auto [a, b] = std::minmax({place(from(h)), place(to(h))});
     return std::tuple(static_cast<float>(std::hypot(b.x - a.x, b.y - a.y)), a, b);
   };
   std::ranges::sort(all, {}, key);
