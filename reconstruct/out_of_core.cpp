@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
+#include <map>
 #include <set>
 #include <span>
 #include <stdexcept>
@@ -12,12 +13,15 @@
 
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
+#include "reconstruct/clean/lines.h"
 #include "reconstruct/link/linking.h"
+#include "reconstruct/link/tips.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/sew/caps.h"
 #include "reconstruct/sew/sewing.h"
 #include "reconstruct/sew/survey.h"
+#include "reconstruct/sew/used_points.h"
 #include "reconstruct/shape/refine.h"
 #include "reconstruct/shape/smooth.h"
 #include "reconstruct/tile/tiles.h"
@@ -47,15 +51,16 @@ class Regions {
       append(std::move(empty));
     }
     has_filled_ = true;
+    has_loops_ = has_loops_ || region.has_loops();
     append(std::move(region));
   }
 
   /// No more come.
   void end() {
-    if (!has_filled_) throw too_few_slices(nullptr);
+    if (!has_loops_) throw too_few_slices(nullptr);
     if (!empty_.empty()) append(std::move(empty_.front()));
     if (bound() < 2) throw too_few_slices(&regions_.front());
-    if (cap_ == Cap::dome && !regions_.back().is_empty())
+    if (cap_ == Cap::dome && regions_.back().has_loops())
       regions_.push_back(beyond(regions_.back(), regions_[regions_.size() - 2]));
   }
 
@@ -75,7 +80,7 @@ class Regions {
     regions_.push_back(std::move(region));
     if (cap_ != Cap::dome || bound() != 2 || has_low_end_) return;
     has_low_end_ = true;
-    if (!regions_[0].is_empty()) regions_.push_front(beyond(regions_[0], regions_[1]));
+    if (regions_[0].has_loops()) regions_.push_front(beyond(regions_[0], regions_[1]));
   }
 
   Cap cap_;
@@ -83,6 +88,7 @@ class Regions {
   std::deque<Region> regions_;
   std::size_t first_ = 0;
   bool has_filled_ = false;
+  bool has_loops_ = false;
   std::vector<Region> empty_;  // above the last filled one
   std::vector<Defect> repairs_;
 };
@@ -188,13 +194,14 @@ class Work {
     if (options_.reports_slabs) reports_.resize(slab_bound_);
     for_each_index(slabs.size(), options_.threads,
                    [&](std::size_t i, unsigned) { slabs[i] = make_slab(first + i); });
+    settle_lines(first, slabs);
     linking_.drop_below(slab_bound_ == 0 ? 0 : slab_bound_ - 1);
 
     std::vector<Layer> layers;
-    if (first == 0 && options_.cap == Cap::flat) layers.push_back(bottom_cap(regions_[0]));
+    if (first == 0 && options_.cap == Cap::flat) layers.push_back(bottom_cap(sewn_region(0)));
     for (std::size_t i = 0; i < slabs.size(); ++i) {
-      const Region& lower = regions_[first + i];
-      const Region& upper = regions_[first + i + 1];
+      const Region& lower = sewn_region(first + i);
+      const Region& upper = sewn_region(first + i + 1);
       if (!slabs[i].is_linked) unlinked_.push_back(unlinked_slices(lower));
       layers.push_back({&lower, &upper, std::move(slabs[i]), static_cast<std::uint32_t>(first + i),
                         lower.slice});
@@ -217,6 +224,37 @@ class Work {
     return refine(regions_[i], regions_[i + 1], std::move(tiles), options_);
   }
 
+  /// Leaves out the points of lines that no part ends in; names the lines.
+  void settle_lines(std::size_t first, std::vector<TileSet>& slabs) {
+    const std::size_t last = first + slabs.size();  // the region above them
+    for (std::size_t i = first == 0 ? 0 : first + 1; i <= last; ++i) {
+      if (regions_[i].line_count() == 0) continue;
+      const bool has_above = i < linking_.slab_bound();
+      const TileSet* const above = i < last    ? &slabs[i - first]
+                                   : has_above ? &linking_.tiles(i)
+                                               : nullptr;
+      used_[i] = UsedPoints(regions_[i], i > 0 ? &regions_[i - 1] : nullptr,
+                            i > 0 ? &slabs[i - 1 - first] : nullptr, above);
+      for (const std::uint32_t line :
+           unused_lines(regions_[i], i > 0 ? &linking_.pieces(i - 1) : nullptr,
+                        has_above ? &linking_.pieces(i) : nullptr))
+        unused_.push_back(unused_line(regions_[i], line));
+    }
+    static const UsedPoints all;
+    const auto used = [&](std::size_t i) -> const UsedPoints& {
+      const auto found = used_.find(i);
+      return found == used_.end() ? all : found->second;
+    };
+    for (std::size_t i = first; i < last; ++i)
+      renumber(slabs[i - first], regions_[i], regions_[i + 1], used(i), used(i + 1));
+  }
+
+  /// A region as it is sewn, once it is settled.
+  [[nodiscard]] const Region& sewn_region(std::size_t i) const {
+    const auto found = used_.find(i);
+    return found == used_.end() ? regions_[i] : found->second.region();
+  }
+
   /// What bending wants to know of the regions that are new.
   void add_shapes() {
     if (!options_.smooth || regions_.bound() < 2) return;  // then the first one is known
@@ -232,7 +270,7 @@ class Work {
       const std::size_t last = slab_bound_ - 1;
       std::vector<Layer> cap;
       cap.push_back(
-          top_cap(regions_[last + 1], static_cast<std::uint32_t>(last), regions_[last].slice));
+          top_cap(sewn_region(last + 1), static_cast<std::uint32_t>(last), regions_[last].slice));
       sewing_.add(std::move(cap), options_.threads);
     }
     sewing_.finish(options_.threads);
@@ -259,6 +297,7 @@ class Work {
     const std::size_t sewn = passed_bound_ - std::min<std::size_t>(cap, passed_bound_);
     const std::size_t needed = std::min(sewn, slab_bound_ - std::min<std::size_t>(1, slab_bound_));
     regions_.drop_below(needed);
+    used_.erase(used_.begin(), used_.lower_bound(needed));
     for (; options_.smooth && first_shape_ < needed; ++first_shape_) shapes_.pop_front();
   }
 
@@ -322,6 +361,7 @@ class Work {
   [[nodiscard]] OutOfCoreReport report() {
     std::vector<Defect> repairs = std::move(repairs_);
     std::ranges::copy(regions_.repairs(), std::back_inserter(repairs));
+    std::ranges::move(unused_, std::back_inserter(repairs));
     std::ranges::move(unlinked_, std::back_inserter(repairs));
     std::ranges::stable_sort(repairs, {}, &Defect::z);
     return {std::move(repairs), std::move(reports_), survey_.measures(),
@@ -351,6 +391,8 @@ class Work {
   Survey survey_;
   std::vector<Cut> cuts_;
   std::vector<Defect> repairs_;
+  std::map<std::size_t, UsedPoints> used_;  // of the regions that have lines
+  std::vector<Defect> unused_;              // lines
   std::vector<Defect> unlinked_;
   std::vector<SlabReport> reports_;
 

@@ -13,8 +13,10 @@
 
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
+#include "reconstruct/clean/lines.h"
 #include "reconstruct/clean/region.h"
 #include "reconstruct/link/linking.h"
+#include "reconstruct/link/tips.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/sew/sew.h"
@@ -55,8 +57,8 @@ void add_beyond_ends(std::vector<Region>& regions) {
   const Region& top = regions.back();
   std::optional<Region> low;
   std::optional<Region> high;
-  if (!bottom.is_empty()) low = beyond(bottom, regions[1]);
-  if (!top.is_empty()) high = beyond(top, regions[regions.size() - 2]);
+  if (bottom.has_loops()) low = beyond(bottom, regions[1]);
+  if (top.has_loops()) high = beyond(top, regions[regions.size() - 2]);
   if (low) regions.insert(regions.begin(), std::move(*low));
   if (high) regions.push_back(std::move(*high));
 }
@@ -66,6 +68,15 @@ void report_unlinked(std::span<const Region> regions, std::span<const TileSet> s
                      std::vector<Defect>& repairs) {
   for (std::size_t i = 0; i < slabs.size(); ++i)
     if (!slabs[i].is_linked) repairs.push_back(unlinked_slices(regions[i]));
+}
+
+/// Names the points and lines that no part ends in.
+void report_unused_lines(std::span<const Region> regions, std::span<const Pieces> slabs,
+                         std::vector<Defect>& repairs) {
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    for (const std::uint32_t line : unused_lines(regions[i], i > 0 ? &slabs[i - 1] : nullptr,
+                                                 i < slabs.size() ? &slabs[i] : nullptr))
+      repairs.push_back(unused_line(regions[i], line));
 }
 
 std::string in_lines(std::span<const std::string> problems) {
@@ -202,6 +213,7 @@ void refine_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
 }
 
 void check_enough(std::span<const Region> regions) {
+  if (std::ranges::none_of(regions, &Region::has_loops)) throw too_few_slices(nullptr);
   if (regions.size() < 2) throw too_few_slices(regions.empty() ? nullptr : &regions.front());
 }
 
@@ -222,6 +234,7 @@ Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean
   std::vector<Refusal> refusals;
   Linking linking(options, orders_of_slabs(regions, options.links, refusals));
   Slabs slabs = tile_all(regions, linking, options.threads, progress);
+  report_unused_lines(regions, slabs.pieces, repairs);
   report_unlinked(regions, slabs.tiles, repairs);
   report_refused(slices, options.links, std::move(refusals), linking, repairs);
   std::ranges::stable_sort(repairs, {}, &Defect::z);

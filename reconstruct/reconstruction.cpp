@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reconstruct/clean/heights.h"
+#include "reconstruct/clean/lines.h"
 #include "reconstruct/live/live_stack.h"
 #include "reconstruct/live/stack_edit.h"
 #include "reconstruct/nearest_height.h"
@@ -154,6 +155,9 @@ std::vector<Defect> Reconstruction::repairs() const {
     if (station.region->is_empty() && ends && z > ends->first && z < ends->second)
       add(empty_slice(*station.region));
     const auto slab = stack_->slabs.find(z);
+    if (ends && z >= ends->first && z <= ends->second)
+      for (const std::uint32_t line : stack_->unused_lines_at(z))
+        add(unused_line(*station.region, line));
     if (slab != stack_->slabs.end() && !slab->second.frozen->linked->is_linked)
       add(unlinked_slices(*station.region));
     ++rank;

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "cdt/regions.h"
 #include "reconstruct/clean/keyholes.h"
+#include "reconstruct/clean/lines.h"
 #include "reconstruct/clean/meetings.h"
 #include "reconstruct/clean/near_copies.h"
 #include "reconstruct/clean/normal_form.h"
@@ -91,6 +91,8 @@ class Cleaning {
     return follow_loops();
   }
 
+  /// The contours that have no area.
+  [[nodiscard]] std::span<const std::uint32_t> flat() const { return flat_; }
   /// Whether the region's vertices are those of the contours, and nothing is too near.
   [[nodiscard]] bool is_settled() const {
     return is_settled_ && !has_near_vertices() &&
@@ -122,7 +124,7 @@ class Cleaning {
     for (std::uint32_t i = 0; i < contours_.size(); ++i) {
       NormalForm form = normal_form(contours_[i].points);
       if (form.places.empty() || are_in_line(form.places)) {
-        report_degenerate(i, form.places);
+        flat_.push_back(i);
         continue;
       }
       if (form.laps > 1)
@@ -202,16 +204,6 @@ class Cleaning {
     std::vector<Point> result;
     for (const std::uint32_t number : ring.numbers) result.push_back(points[number]);
     return result;
-  }
-
-  void report_degenerate(std::uint32_t contour, const std::vector<Point>& ring) {
-    const std::size_t places = std::set<Point>(ring.begin(), ring.end()).size();
-    Defect& defect =
-        places < 3 ? report(DefectKind::too_few_points, contour,
-                            "an outline needs 3 different points, this has " +
-                                std::to_string(places) + "; dropped")
-                   : report(DefectKind::zero_area, contour, "all points are in one line; dropped");
-    if (!ring.empty()) defect.place = ring.front();
   }
 
   void insert() {
@@ -472,7 +464,8 @@ class Cleaning {
   double least_distance_;
   double tolerance_;  // between contours that are one
   std::vector<Defect>& repairs_;
-  std::vector<Ring> rings_;  // by constraint
+  std::vector<Ring> rings_;          // by constraint
+  std::vector<std::uint32_t> flat_;  // contours without an area
   Triangulation& mesh_;
   std::vector<Origin> origins_;       // of each vertex
   std::vector<bool> is_inside_;       // of each triangle
@@ -528,7 +521,9 @@ Region clean(std::span<const ContourSource> contours, double z, const Filling& f
       return std::move(*simple);
   Cleaning cleaning(contours, z, filling, size, repairs, memory);
   Region region = cleaning.run();
-  return cleaning.is_settled() ? region : settle(std::move(region), size, repairs, memory);
+  if (!cleaning.is_settled()) region = settle(std::move(region), size, repairs, memory);
+  add_lines(region, contours, cleaning.flat(), size.least_distance(), repairs);
+  return region;
 }
 
 Region clean(std::span<const ContourSource> contours, double z, const Filling& filling,

@@ -20,13 +20,13 @@ struct ContourSource {
   std::uint32_t contour = 0;
 };
 
-/// Cleans a slice: contours with no area and copies of others are
-/// dropped, keyholes cut; the rest go into a CDT, which is flooded by the fill rule; the edges
-/// between inside and outside make the loops. What was found is appended to `repairs`.
-/// Laws: a slice of which nothing is reported keeps its vertices and edges, one for one. The
-/// region does not depend on the order of the contours and of their points; with even-odd filling
-/// neither on their direction. Precondition: finite coordinates.
-/// Cost: that of the CDT; where contours meet, with how many enclose the same place.
+/// Cleans a slice: copies of contours are
+/// dropped, keyholes cut; those that have an area go into a CDT, which is flooded by the fill rule;
+/// the edges between inside and outside make the loops. The others become lines (add_lines()). What
+/// was found is appended to `repairs`. Laws: a slice of which nothing is reported keeps its
+/// vertices and edges, one for one. The region does not depend on the order of the contours and of
+/// their points; with even-odd filling neither on their direction. Precondition: finite
+/// coordinates. Cost: that of the CDT; where contours meet, with how many enclose the same place.
 [[nodiscard]] Region clean(std::span<const ContourSource> contours, double z,
                            const Filling& filling, std::vector<Defect>& repairs);
 /// The same with memory for the CDT that can be used again from slice to slice.

@@ -17,11 +17,11 @@ std::vector<Segment> boundary(const Region& region) {
 }
 
 bool is_same_in_slice(const Region& a, const Region& b) {
+  const auto is_same = [](const Origin& p, const Origin& q) { return is_same_in_slice(p, q); };
   return a.points == b.points && a.loop_vertices == b.loop_vertices &&
-         a.loop_starts == b.loop_starts &&
-         std::ranges::equal(a.origins, b.origins, [](const Origin& p, const Origin& q) {
-           return is_same_in_slice(p, q);
-         });
+         a.loop_starts == b.loop_starts && a.line_vertices == b.line_vertices &&
+         a.line_starts == b.line_starts && std::ranges::equal(a.origins, b.origins, is_same) &&
+         std::ranges::equal(a.line_origins, b.line_origins, is_same);
 }
 
 void insert_loops(const Region& region, cdt::Triangulation& mesh, cdt::Point shift) {

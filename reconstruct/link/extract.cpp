@@ -6,7 +6,8 @@
 
 namespace loft {
 
-Extract::Extract(const Region& region, std::span<const std::uint32_t> loops, bool is_solid) {
+Extract::Extract(const Region& region, std::span<const std::uint32_t> loops, bool is_solid,
+                 std::span<const std::uint32_t> lines) {
   extract_.z = region.z;
   extract_.slice = region.slice;
   extract_.loop_starts.push_back(0);
@@ -19,7 +20,16 @@ Extract::Extract(const Region& region, std::span<const std::uint32_t> loops, boo
     }
     extract_.loop_starts.push_back(static_cast<std::uint32_t>(vertices.size()));
   }
-  extract_.loop_vertices.resize(vertices.size());
+  const std::size_t loop_vertex_count = vertices.size();
+  for (const std::uint32_t i : lines) {
+    if (extract_.line_starts.empty()) extract_.line_starts.push_back(0);
+    for (const std::uint32_t v : region.line(i))
+      vertices.emplace_back(v, static_cast<std::uint32_t>(vertices.size()));
+    extract_.line_starts.push_back(static_cast<std::uint32_t>(vertices.size() - loop_vertex_count));
+    extract_.line_origins.push_back(region.line_origins[i]);
+  }
+  extract_.loop_vertices.resize(loop_vertex_count);
+  extract_.line_vertices.resize(vertices.size() - loop_vertex_count);
   std::ranges::sort(vertices);
   for (const auto& [v, place] : vertices) {
     if (original_.empty() || original_.back() != v) {
@@ -27,7 +37,12 @@ Extract::Extract(const Region& region, std::span<const std::uint32_t> loops, boo
       extract_.points.push_back(region.points[v]);
       extract_.origins.push_back(region.origins[v]);
     }
-    extract_.loop_vertices[place] = static_cast<std::uint32_t>(original_.size() - 1);
+    const auto here = static_cast<std::uint32_t>(original_.size() - 1);
+    if (place < loop_vertex_count) {
+      extract_.loop_vertices[place] = here;
+    } else {
+      extract_.line_vertices[place - loop_vertex_count] = here;
+    }
   }
 }
 

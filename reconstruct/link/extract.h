@@ -10,11 +10,12 @@
 
 namespace loft {
 
-/// Some loops of a region as a region of their own. Where they bound a cavity, turned round: its
-/// inside becomes the region's.
+/// Some loops, and lines, of a region as a region of their own. Where they bound a cavity, turned
+/// round: its inside becomes the region's.
 class Extract {
  public:
-  Extract(const Region& region, std::span<const std::uint32_t> loops, bool is_solid);
+  Extract(const Region& region, std::span<const std::uint32_t> loops, bool is_solid,
+          std::span<const std::uint32_t> lines = {});
 
   [[nodiscard]] const Region& region() const { return extract_; }
   /// The index in the whole region of a point of the extract.

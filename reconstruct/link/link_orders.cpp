@@ -12,6 +12,7 @@
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/parts.h"
 #include "reconstruct/link/replace.h"
+#include "reconstruct/link/tips.h"
 
 namespace loft {
 
@@ -104,6 +105,7 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
   struct Found {
     std::uint32_t region = none;
     std::vector<std::uint32_t> loops;
+    std::optional<std::uint32_t> line;
   };
   std::map<ContourId, Found> found;
   for (const LinkOrder& order : orders) {
@@ -122,6 +124,13 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
       }
     }
   }
+  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+    for (std::uint32_t i = 0; i < regions[r].line_count(); ++i) {
+      const Origin& origin = regions[r].line_origins[i];
+      const auto place = found.find({origin.slice, origin.contour});
+      if (place != found.end()) place->second = {r, {}, i};
+    }
+  }
   for (std::uint32_t i = 0; i < orders.size(); ++i) {
     const Found& from = found[orders[i].from];
     const Found& to = found[orders[i].to];
@@ -129,9 +138,11 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
       const ContourId& missing = from.region == none ? orders[i].from : orders[i].to;
       refusals.push_back({i, name(missing) + " bounds nothing after cleaning"});
     } else if (from.region + 1 == to.region) {
-      of_slabs[from.region].push_back({i, orders[i].is_link, from.loops, to.loops});
+      of_slabs[from.region].push_back(
+          {i, orders[i].is_link, from.loops, to.loops, from.line, to.line});
     } else if (to.region + 1 == from.region) {
-      of_slabs[to.region].push_back({i, orders[i].is_link, to.loops, from.loops});
+      of_slabs[to.region].push_back(
+          {i, orders[i].is_link, to.loops, from.loops, to.line, from.line});
     } else {
       refusals.push_back({i, "an empty slice lies between them"});
     }
@@ -454,9 +465,23 @@ class Ordering {
 }  // namespace
 
 OrderedTiles tile_by_orders(const Region& lower, const Region& upper, const Options& options,
-                            std::span<const SlabOrder> orders, TileWorkspace& workspace) {
+                            std::span<const SlabOrder> all_orders, TileWorkspace& workspace) {
+  std::vector<SlabOrder> orders;
+  for (const SlabOrder& order : all_orders)
+    if (!order.has_line()) orders.push_back(order);
+  if (auto tips = find_tips(lower, upper); !tips.empty()) {
+    Options unmoved = options;  // what slides must meet no tip
+    if (options.link == LinkRule::automatic) unmoved.link = LinkRule::overlap;
+    auto all = tile_beside(lower, upper, std::move(tips), orders,
+                           [&](const Region& below, const Region& above, auto left) {
+                             return tile_by_orders(below, above, unmoved, left, workspace);
+                           });
+    if (all && options.link == LinkRule::automatic)
+      slide(lower, upper, all->tiles, all->pieces, options.max_shift);
+    if (all) return std::move(*all);
+  }
   const bool is_plain = orders.empty() && options.link != LinkRule::none;
-  const bool is_end = lower.is_empty() || upper.is_empty();
+  const bool is_end = !lower.has_loops() || !upper.has_loops();
   if (!is_plain && !is_end) return Ordering(lower, upper, options, orders).run();
   OrderedTiles plain;
   plain.tiles = tile(lower, upper, workspace);

@@ -19,12 +19,17 @@ namespace loft {
 [[nodiscard]] std::vector<std::string> find_bad_orders(std::span<const Slice> slices,
                                                        std::span<const LinkOrder> orders);
 
-/// An order to one slab: the loops that its two contours became.
+/// An order to one slab: the loops, or the line, that each of its two contours became.
 struct SlabOrder {
   std::uint32_t order = 0;  ///< index among all orders
   bool is_link = true;
   std::vector<std::uint32_t> lower;  ///< loops of the lower region
   std::vector<std::uint32_t> upper;
+  std::optional<std::uint32_t> lower_line{};
+  std::optional<std::uint32_t> upper_line{};
+
+  /// Whether it is about a point or a line: what ends in one does so without an order.
+  [[nodiscard]] bool has_line() const { return lower_line || upper_line; }
 };
 
 /// An order that was not met, and why.
@@ -63,6 +68,8 @@ struct OrderedTiles {
 /// before half way. All these tiles must not meet (exact test), else the last order that takes part
 /// in it is refused and the slab done again without it. LinkRule::none leaves only the linked ones.
 /// Without orders and for the other rules this is tile(). With LinkRule::automatic, pieces slide.
+/// Parts that end in points or lines of the other slice are tiled first (find_tips()), whatever the
+/// rule; the rest as if they were not there.
 [[nodiscard]] OrderedTiles tile_by_orders(const Region& lower, const Region& upper,
                                           const Options& options, std::span<const SlabOrder> orders,
                                           TileWorkspace& workspace);

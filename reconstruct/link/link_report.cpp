@@ -34,6 +34,10 @@ std::vector<ContourId> contours(const Region& region, const Footprint& footprint
         found.push_back(id);
     }
   }
+  for (const std::uint32_t i : footprint.lines) {
+    const Origin& origin = region.line_origins[i];
+    found.push_back({origin.slice, origin.contour});
+  }
   std::ranges::sort(found);
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

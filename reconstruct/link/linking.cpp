@@ -50,16 +50,29 @@ void Linking::match(std::size_t slab) {
 
 namespace {
 
-/// Whether a piece has one of some lower loops and one of some upper ones.
-bool are_linked(const Pieces& pieces, const SlabOrder& order) {
-  const auto has = [](const Footprint& footprint, const std::vector<std::uint32_t>& loops) {
-    return std::ranges::any_of(loops, [&](std::uint32_t loop) {
-      return std::ranges::find(footprint.loops, loop) != footprint.loops.end();
-    });
-  };
-  return std::ranges::any_of(pieces.pieces, [&](const Piece& piece) {
-    return has(piece.lower, order.lower) && has(piece.upper, order.upper);
+/// Whether a piece has one of some loops, or a line.
+bool has(const Footprint& footprint, const std::vector<std::uint32_t>& loops,
+         const std::optional<std::uint32_t>& line) {
+  if (line) return std::ranges::find(footprint.lines, *line) != footprint.lines.end();
+  return std::ranges::any_of(loops, [&](std::uint32_t loop) {
+    return std::ranges::find(footprint.loops, loop) != footprint.loops.end();
   });
+}
+
+/// Whether a piece has of either slice what an order names.
+bool are_linked(const Pieces& pieces, const SlabOrder& order) {
+  return std::ranges::any_of(pieces.pieces, [&](const Piece& piece) {
+    return has(piece.lower, order.lower, order.lower_line) &&
+           has(piece.upper, order.upper, order.upper_line);
+  });
+}
+
+const char* reason(const SlabOrder& order) {
+  if (order.has_line())
+    return order.is_link ? "a part ends in a point or a line if it covers that and does not go on"
+                         : "a part that covers it ends there; leave the point or line out";
+  return order.is_link ? "its tiles would meet others between the slices"
+                       : "both are linked with another part in common";
 }
 
 }  // namespace
@@ -71,9 +84,7 @@ void Linking::link(std::size_t slab) {
     const bool is_refused =
         std::ranges::find(here.refusals, order.order, &Refusal::order) != here.refusals.end();
     if (is_refused || are_linked(here.pieces, order) == order.is_link) continue;
-    here.refusals.push_back({order.order, order.is_link
-                                              ? "its tiles would meet others between the slices"
-                                              : "both are linked with another part in common"});
+    here.refusals.push_back({order.order, reason(order)});
   }
 }
 

@@ -22,6 +22,7 @@ enum class LinkReason : std::uint8_t {
 /// What of one slice belongs to a piece.
 struct Footprint {
   std::vector<std::uint32_t> loops;  ///< of the slice's region, by their smallest points
+  std::vector<std::uint32_t> lines;  ///< in which the contours of the other slice end
   std::uint32_t parts = 0;           ///< how many of the loops are outer ones; the rest are holes
   double area = 0;                   ///< enclosed
   double radius = 0;                 ///< of the circle with the area that the outer loops enclose
@@ -52,7 +53,9 @@ struct Piece {
   [[nodiscard]] const Footprint& footprint(Level level) const {
     return level == Level::lower ? lower : upper;
   }
-  [[nodiscard]] bool is_end() const { return lower.is_empty() || upper.is_empty(); }
+  /// Whether it ends in points and lines of the other slice.
+  [[nodiscard]] bool is_tip() const { return !lower.lines.empty() || !upper.lines.empty(); }
+  [[nodiscard]] bool is_end() const { return (lower.is_empty() || upper.is_empty()) && !is_tip(); }
 };
 
 /// The pieces of a slab, by their smallest contour points.

@@ -175,8 +175,8 @@ void Gaps::bend(std::size_t i) {
 /// Gives a slab that is new or changed its number.
 void Gaps::freeze(Gap& gap) {
   const bool is_capped = stack_.options.cap == Cap::flat;
-  const bool has_bottom = is_capped && gap.is_first && !gap.lower->region->is_empty();
-  const bool has_top = is_capped && gap.is_last && !gap.upper->region->is_empty();
+  const bool has_bottom = is_capped && gap.is_first && gap.lower->region->has_loops();
+  const bool has_top = is_capped && gap.is_last && gap.upper->region->has_loops();
   if (!gap.made) {
     const FrozenSlab& there = *gap.there->frozen;
     if (there.has_bottom_cap == has_bottom && there.has_top_cap == has_top) return;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "reconstruct/link/tips.h"
+
 namespace loft {
 
 std::optional<std::pair<Stations::iterator, Stations::iterator>> LiveStack::range() {
@@ -16,6 +18,18 @@ std::optional<std::pair<Stations::iterator, Stations::iterator>> LiveStack::rang
   if (std::next(last) != stations.end()) ++last;
   if (first == last) return {};
   return std::pair{first, last};
+}
+
+std::vector<std::uint32_t> LiveStack::unused_lines_at(double z) const {
+  const Region& region = *stations.at(z).region;
+  if (region.line_count() == 0) return {};
+  const auto from_here = slabs.lower_bound(z);
+  const bool is_lower = from_here != slabs.end() && from_here->first == z;
+  const bool is_upper =
+      from_here != slabs.begin() && std::prev(from_here)->second.frozen->info.high == z;
+  const auto pieces = [](const auto& slab) { return slab->second.frozen->pieces.get(); };
+  return unused_lines(region, is_upper ? pieces(std::prev(from_here)) : nullptr,
+                      is_lower ? pieces(from_here) : nullptr);
 }
 
 }  // namespace loft

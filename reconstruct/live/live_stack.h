@@ -61,6 +61,9 @@ struct LiveStack {
   /// empty ones next to these; none if that are not two. Cost: O(number of empty ones beyond).
   [[nodiscard]] std::optional<std::pair<Stations::iterator, Stations::iterator>> range();
 
+  /// The lines of a slice that no part ends in. Precondition: it is between the ends.
+  [[nodiscard]] std::vector<std::uint32_t> unused_lines_at(double z) const;
+
   Options options;
   Stations stations;                              ///< slices by their heights
   std::map<double, LiveSlab> slabs;               ///< by the heights they begin at

@@ -11,6 +11,8 @@
 
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
+#include "reconstruct/clean/lines.h"
+#include "reconstruct/link/tips.h"
 #include "reconstruct/live/exchange.h"
 #include "reconstruct/live/gaps.h"
 #include "reconstruct/number_text.h"
@@ -84,6 +86,25 @@ class StackEdit {
           !gap.is_first && gap.lower->slice != nullptr && slab.lower->is_empty();
       if (is_interrupted) change_.repairs.push_back(empty_slice(*slab.lower));
       if (!slab.linked->is_linked) change_.repairs.push_back(unlinked_slices(*slab.lower));
+    }
+    report_lines(gaps.all());
+  }
+
+  /// The points and lines at the slabs added that no part ends in.
+  void report_lines(std::span<const Gap> gaps) {
+    const auto note = [&](const Gap* below, const Gap* above) {
+      const bool is_new = (below != nullptr && below->made) || (above != nullptr && above->made);
+      if (!is_new) return;
+      const auto pieces = [](const Gap* gap) {
+        return gap == nullptr ? nullptr : gap->slab().frozen->pieces.get();
+      };
+      const Region& region = below != nullptr ? *below->upper->region : *above->lower->region;
+      for (const std::uint32_t line : unused_lines(region, pieces(below), pieces(above)))
+        change_.repairs.push_back(unused_line(region, line));
+    };
+    for (std::size_t i = 0; i < gaps.size(); ++i) {
+      if (i > 0 || gaps[i].is_first) note(i > 0 ? &gaps[i - 1] : nullptr, &gaps[i]);
+      if (i + 1 == gaps.size() && gaps[i].is_last) note(&gaps[i], nullptr);
     }
   }
 
@@ -244,12 +265,12 @@ class StackEdit {
     const bool is_dome = stack_.options.cap == Cap::dome;
     if (is_dome) round_off(first, last);
     std::vector<Station*> line;
-    if (is_dome && is_bottom && !first->second.region->is_empty()) line.push_back(&stack_.below);
+    if (is_dome && is_bottom && first->second.region->has_loops()) line.push_back(&stack_.below);
     for (auto station = from;; ++station) {
       line.push_back(&station->second);
       if (station == to) break;
     }
-    if (is_dome && is_top && !last->second.region->is_empty()) line.push_back(&stack_.above);
+    if (is_dome && is_top && last->second.region->has_loops()) line.push_back(&stack_.above);
     return {stack_, std::move(line), is_bottom, is_top};
   }
 

@@ -132,7 +132,7 @@ void Sewing::pair_at(std::uint32_t layer, Found& found) {
 /// The usual case: each point has one contour edge from it, with a tile below and one above.
 /// Returns whether that was so.
 bool Sewing::pair_contours_at(std::uint32_t layer) {
-  if (layer == 0 || !has(layer)) return false;
+  if (layer == 0 || !has(layer) || at(layer).layer.lower->line_count() != 0) return false;
   const State& below = at(layer - 1);
   const State& above = at(layer);
   if (below.upper_rim.size() != above.lower_rim.size()) return false;

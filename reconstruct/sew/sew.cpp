@@ -10,6 +10,7 @@
 #include "reconstruct/parallel.h"
 #include "reconstruct/sew/caps.h"
 #include "reconstruct/sew/sewing.h"
+#include "reconstruct/sew/used_points.h"
 
 namespace loft {
 
@@ -234,10 +235,26 @@ class Assembly {
   std::vector<std::vector<Handle>> rims_;  // of each group
 };
 
+/// Leaves out the points of lines that no part ends in. The regions returned are to be kept.
+std::vector<UsedPoints> drop_unused_points(std::vector<const Region*>& regions,
+                                           std::vector<TileSet>& slabs) {
+  std::vector<UsedPoints> used(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    used[i] = UsedPoints(*regions[i], i > 0 ? regions[i - 1] : nullptr,
+                         i > 0 ? &slabs[i - 1] : nullptr, i < slabs.size() ? &slabs[i] : nullptr);
+  for (std::size_t i = 0; i < slabs.size(); ++i)
+    renumber(slabs[i], *regions[i], *regions[i + 1], used[i], used[i + 1]);
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    if (used[i].has_lines()) regions[i] = &used[i].region();
+  return used;
+}
+
 }  // namespace
 
-Surface sew(std::span<const Region* const> regions, std::vector<TileSet> slabs, Cap cap,
+Surface sew(std::span<const Region* const> all_regions, std::vector<TileSet> slabs, Cap cap,
             unsigned threads) {
+  std::vector<const Region*> regions(all_regions.begin(), all_regions.end());
+  const std::vector<UsedPoints> used = drop_unused_points(regions, slabs);
   Surface surface;  // filled in place: moving one would copy it
   const Counts counts = plain_counts(regions, slabs, cap);
   Sewing sewing;

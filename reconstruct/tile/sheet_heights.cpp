@@ -24,6 +24,14 @@ constexpr double least_share = 1e-3;
 
 }  // namespace
 
+double height_share(double to_lower, double to_upper) {
+  const double lower = std::pow(to_lower, steepness);
+  const double upper = std::pow(to_upper, steepness);
+  // On an edge of both slices both are 0, as in the middle of a chord of a hair-thin sheet.
+  const double share = lower + upper > 0 ? lower / (lower + upper) : 0.5;
+  return std::clamp(share, least_share, 1 - least_share);
+}
+
 SheetHeights::SheetHeights(const Slab& slab)
     : slab_(slab), sheet_of_(slab.overlay().triangle_bound(), Origin::none) {}
 
@@ -37,10 +45,7 @@ double SheetHeights::height(EdgeId e, Point p) {
   } else if (!sheet.touches_lower) {
     share = 1 - end_share(sheet, p);
   } else {
-    const double lower = std::pow(sheet.lower.distance(p), steepness);
-    const double upper = std::pow(sheet.upper.distance(p), steepness);
-    // On an edge of both slices both are 0, as in the middle of a chord of a hair-thin sheet.
-    share = lower + upper > 0 ? lower / (lower + upper) : 0.5;
+    share = height_share(sheet.lower.distance(p), sheet.upper.distance(p));
   }
   assert(std::isfinite(share));
   return slab_.lower().z + std::clamp(share, least_share, 1 - least_share) * slab_.height();

@@ -10,6 +10,10 @@
 
 namespace loft {
 
+/// The share of a slab's height at which the surface is over a place with these distances from
+/// contours of the lower and of the upper slice, strictly between 0 and 1; see SheetHeights.
+[[nodiscard]] double height_share(double to_lower, double to_upper);
+
 /// Where the surface is over the inside of a slab's sheets, by the distances to the contours that
 /// bound them. Looks at the slab's triangles as they are when asked
 /// first; make a new one after splits. Distances are prepared only for the sheets asked about.

@@ -195,7 +195,7 @@ Scale scale(const Region& lower, const Region& upper) {
   cdt::Box box;
   double farthest = 0;
   for (const Region* region : {&lower, &upper}) {
-    for (const Point p : region->points) {
+    for (const Point p : region->loop_points()) {
       box.add(p);
       farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)});
     }
@@ -346,7 +346,7 @@ TileSet tile_end(const Region& lower, const Region& upper, TileWorkspace& worksp
 std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Point shift,
                                   std::size_t most_pairs, bool collapses,
                                   TileWorkspace& workspace) {
-  if (lower.is_empty() || upper.is_empty()) return tile_end(lower, upper, workspace);
+  if (!lower.has_loops() || !upper.has_loops()) return tile_end(lower, upper, workspace);
   const Scale lengths = scale(lower, upper);
   std::size_t pairs_left = most_pairs;
   for (const Overlay overlay : {Overlay::exact, Overlay::rounded}) {
@@ -391,7 +391,7 @@ double contact(const Region& lower, const Region& upper) { return contact_of(dou
 
 std::optional<TileSet> tile_plain(const Region& lower, const Region& upper, double doubt,
                                   bool is_solid, TileWorkspace& workspace) {
-  if (lower.is_empty() || upper.is_empty()) return {};
+  if (!lower.has_loops() || !upper.has_loops()) return {};
   Slab slab(lower, upper, {}, std::move(workspace.overlay));
   std::optional<Draft> drafted;
   if (slab.is_oriented() && !slab.has_near_contact(contact_of(doubt)))

@@ -32,6 +32,7 @@ class Decoder {
     const unsigned count = 2 + byte() % 3;
     for (unsigned i = 0; i < count; ++i)
       any.slices.push_back({0.1 * (1 + i + (byte() % 8) * 0.1), contours()});
+    for (unsigned left = byte() % 8; left > 3; --left) add_tip(any.slices);
     return any;
   }
 
@@ -83,6 +84,17 @@ class Decoder {
       default:
         return made.push_back(polygon([&] { return turned(grid()); }));
     }
+  }
+
+  /// A point or a line for what a neighbouring slice has; that of its own slice may be gone.
+  void add_tip(std::vector<Slice>& slices) {
+    const std::size_t at = byte() % slices.size();
+    const Slice& other = slices[at == 0 ? 1 : at - 1];
+    if (byte() % 2 == 0) slices[at].contours.clear();
+    Contour tip;
+    for (unsigned left = 1 + byte() % 3 / 2; left > 0; --left)
+      tip.points.push_back(byte() % 2 == 0 ? grid() : beside(other.contours));
+    slices[at].contours.push_back(std::move(tip));
   }
 
   Point grid() {

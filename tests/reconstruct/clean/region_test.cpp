@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <set>
 
 #include "cdt/predicates.h"
 #include "reconstruct/clean/cleaning.h"
@@ -69,21 +70,44 @@ TEST(Clean, TurnsTheRegionToTheLeftWhateverTheOrientation) {
   }
 }
 
-TEST(Clean, DropsWhatHasNoArea) {
+TEST(Clean, DropsWhatHasNoAreaInsideAnOutline) {
   Slice slice{0, {stacks::square(3)}};
   slice.contours.push_back({{}, {}});
-  slice.contours.push_back({{{9, 9}}, {}});
-  slice.contours.push_back({{{9, 9}, {8, 8}}, {}});
-  slice.contours.push_back({{{9, 9}, {8, 8}, {9, 9}}, {}});
-  slice.contours.push_back({{{9, 9}, {8, 8}, {7, 7}}, {}});
+  slice.contours.push_back({{{3, 0}}, {}});
+  slice.contours.push_back({{{1, 1}, {2, 2}}, {}});
+  slice.contours.push_back({{{1, 1}, {9, 8}, {1, 1}}, {}});
+  slice.contours.push_back({{{9, 9}, {0, 0}, {-7, -7}}, {}});
   std::vector<Defect> repairs;
   const Region region = clean_slice(slice, repairs);
   EXPECT_DOUBLE_EQ(area(region), 36);
   EXPECT_EQ(region.points.size(), 4U);
   using enum DefectKind;
-  EXPECT_EQ(kinds(repairs), (std::vector{too_few_points, too_few_points, too_few_points,
-                                         too_few_points, zero_area}));
-  for (std::uint32_t i = 0; i < repairs.size(); ++i) EXPECT_EQ(repairs[i].contour, i + 1);
+  std::set<std::uint32_t> contours;
+  for (const Defect& repair : repairs) contours.insert(*repair.contour);
+  EXPECT_EQ(contours, (std::set<std::uint32_t>{1, 2, 3, 4, 5}));
+  EXPECT_EQ(std::ranges::count(kinds(repairs), zero_area), 1);
+  EXPECT_EQ(std::ranges::count(kinds(repairs), too_few_points), 4);
+}
+
+TEST(Clean, KeepsWhatHasNoAreaBesideTheRegionAsLines) {
+  Slice slice{0, {stacks::square(3)}};
+  slice.contours.push_back({{{9, 9}, {7, 7}, {8, 8}}, {}});
+  slice.contours.push_back({{{5, 0}}, {}});
+  std::vector<Defect> repairs;
+  const Region region = clean_slice(slice, repairs);
+  EXPECT_TRUE(repairs.empty());
+  EXPECT_FALSE(is_simple(region));
+  EXPECT_EQ(region.loop_points().size(), 4U);
+  ASSERT_EQ(region.line_count(), 2U);
+  const auto at = [&](std::size_t line, std::size_t i) {
+    return region.points[region.line(line)[i]];
+  };
+  ASSERT_EQ(region.line(0).size(), 3U);
+  EXPECT_EQ(at(0, 0), (Point{7, 7}));
+  EXPECT_EQ(at(0, 1), (Point{8, 8}));
+  EXPECT_EQ(at(0, 2), (Point{9, 9}));
+  EXPECT_EQ(region.origins[region.line(0)[0]], (Origin{VertexKind::contour, 0, 1, 1}));
+  EXPECT_EQ(at(1, 0), (Point{5, 0}));
 }
 
 TEST(Clean, DropsACopyOfAContourHoweverItIsWritten) {
@@ -355,7 +379,7 @@ TEST(Clean, MakesLoopsThatMeetOnlyInVertices) {
       EXPECT_GE(area(region), 0);
       cdt::Triangulation mesh;
       insert_loops(region, mesh);
-      EXPECT_EQ(mesh.vertex_count(), region.points.size());
+      EXPECT_EQ(mesh.vertex_count(), region.loop_points().size());
       for (std::uint32_t e = 0; e < mesh.edge_bound(); ++e)
         EXPECT_LE(mesh.passages(cdt::EdgeId(e)).size(), 1U);
     }

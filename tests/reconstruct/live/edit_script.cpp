@@ -159,6 +159,25 @@ void RandomEdits::jog(Slice& slice) {
   for (cdt::Point& p : contour.points) p = {p.x + by.x, p.y + by.y};
 }
 
+/// A point or a line somewhere at a contour of another slice, for it to end in; often alone.
+void RandomEdits::add_tip(Slice& slice, const Slice& other) {
+  if (other.contours.empty()) return;
+  const std::vector<cdt::Point>& points = other.contours[below(other.contours.size())].points;
+  if (points.empty()) return;
+  const auto between = [&] {
+    const cdt::Point p = points[below(points.size())];
+    const cdt::Point q = points[below(points.size())];
+    const double share = static_cast<double>(below(5)) / 4;
+    return cdt::Point{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
+  };
+  if (below(2) == 0) slice.contours.clear();
+  Contour tip;
+  tip.label = other.contours.front().label;
+  tip.points.push_back(between());
+  if (below(3) == 0) tip.points.push_back(between());
+  slice.contours.push_back(std::move(tip));
+}
+
 std::string RandomEdits::reject(Reconstruction& live) {
   const auto before = content(live.surface());
   const std::size_t count = live.slice_count();
@@ -198,7 +217,7 @@ std::string RandomEdits::next(Reconstruction& live) {
 
 /// None where there was nothing to do.
 std::optional<SurfaceChange> RandomEdits::edit(Reconstruction& live) {
-  const std::size_t kind = below(20);
+  const std::size_t kind = below(22);
   if (live.slice_count() == 0 || kind < 7) {
     const Slice& slice = pool_[below(pool_.size())];
     if (live.find(slice.z) != nullptr && kind < 6) return live.replace(slice.z, slice);
@@ -227,6 +246,10 @@ std::optional<SurfaceChange> RandomEdits::edit(Reconstruction& live) {
     const Slice& other = pool_[below(pool_.size())];
     if (other.contours.empty()) return {};
     slice.contours.push_back(other.contours[below(other.contours.size())]);
+    return live.replace(z, std::move(slice));
+  }
+  if (kind >= 20) {
+    add_tip(slice, pool_[below(pool_.size())]);
     return live.replace(z, std::move(slice));
   }
   if (slice.contours.empty()) return {};

@@ -21,7 +21,8 @@ namespace loft::edits {
 [[nodiscard]] std::string difference(const Reconstruction& live, const Options& options);
 
 /// Random edits of a stack, all kinds of them: inserted in any order, at heights that are taken,
-/// replaced, moved, by hardly anything, with contours that come and go, removed, and rejected.
+/// replaced, moved, by hardly anything, with contours that come and go, points and lines to end in,
+/// removed, and rejected.
 class RandomEdits {
  public:
   /// `pool`: slices to insert, each at its height.
@@ -36,6 +37,7 @@ class RandomEdits {
   [[nodiscard]] double any_height(const Reconstruction& live);
   [[nodiscard]] std::string reject(Reconstruction& live);
   void jog(Slice& slice);
+  void add_tip(Slice& slice, const Slice& other);
   std::optional<SurfaceChange> edit(Reconstruction& live);
 
   std::vector<Slice> pool_;
