@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: MIT
+// What moves, turns or folds by more than its thickness stays whole: it is moved over what it was
+// before its tiles are chosen.
+#include "reconstruct/registration/registration.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <vector>
+
+#include "mesh/measure.h"
+#include "reconstruct/clean/cleaning.h"
+#include "reconstruct/reconstruct.h"
+#include "reconstruct/reconstruction.h"
+#include "reconstruct/registration/displacement.h"
+#include "reconstruct/registration/matching.h"
+#include "tests/reconstruct/solid.h"
+#include "tests/reconstruct/stacks.h"
+
+namespace loft {
+namespace {
+
+using cdt::Point;
+using std::numbers::pi;
+
+/// A wall along a wave, as one outline: the wave and its other side.
+std::vector<Point> wavy_wall(double phase, double thickness) {
+  std::vector<Point> outline;
+  const auto wave = [&](double x) { return 2.5 * std::sin(2 * pi * x / 10 + phase); };
+  constexpr int count = 120;
+  for (int i = 0; i <= count; ++i) {
+    const double x = -20 + 40.0 * i / count;
+    outline.push_back({x, wave(x) - thickness / 2});
+  }
+  for (int i = count; i >= 0; --i) {
+    const double x = -20 + 40.0 * i / count;
+    outline.push_back({x, wave(x) + thickness / 2});
+  }
+  return outline;
+}
+
+std::vector<Slice> travelling_folds(double thickness = 1) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 3; ++i) slices.push_back({2.0 * i, {{wavy_wall(1.2 * i, thickness), ""}}});
+  return slices;
+}
+
+/// A profile that is open above: floor and two upright walls, 3 thick.
+std::vector<Point> profile(double floor) {
+  return {{0, floor},      {40, floor},    {40, 50}, {37, 50},
+          {37, floor + 3}, {3, floor + 3}, {3, 50},  {0, 50}};
+}
+
+/// The wall of a square hopper: a frame 5 wide, `inset` from the border.
+Slice frame(double z, double inset) {
+  const auto square = [](double low) {
+    return std::vector<Point>{
+        {low, low}, {100 - low, low}, {100 - low, 100 - low}, {low, 100 - low}};
+  };
+  return {z, {{square(inset), ""}, {square(inset + 5), ""}}};
+}
+
+std::vector<Slice> turned(std::vector<Slice> slices, double angle, double mirrored = 1) {
+  for (Slice& slice : slices)
+    for (Contour& contour : slice.contours)
+      for (Point& p : contour.points)
+        p = {mirrored * (p.x * std::cos(angle) - p.y * std::sin(angle)),
+             p.x * std::sin(angle) + p.y * std::cos(angle)};
+  return slices;
+}
+
+Measures of_solid(const std::vector<Slice>& slices, const Options& options = {}) {
+  const Reconstructed made = reconstruct(slices, options);
+  EXPECT_EQ(solids::faults(made.surface), "");
+  return measure(made.surface);
+}
+
+void expect_whole(const std::vector<Slice>& slices, int genus, double volume, double tolerance,
+                  const Options& options = {}) {
+  const Measures made = of_solid(slices, options);
+  EXPECT_EQ(made.components, 1U);
+  EXPECT_EQ(made.genus, genus);
+  EXPECT_NEAR(made.volume, volume, tolerance * volume);
+}
+
+TEST(Registration, AFoldedWallWhoseFoldsTravelIsOneSheet) {
+  expect_whole(travelling_folds(), 0, 160, 0.1);
+}
+
+TEST(Registration, AThinnerFoldedWallIsOneSheetToo) {
+  expect_whole(travelling_folds(0.7), 0, 112, 0.1);
+}
+
+TEST(Registration, ProfilesOfDifferentDepthHaveNoWindowBetweenTheirFloors) {
+  const std::vector<Slice> slices{{0, {{profile(0), ""}}}, {20, {{profile(12), ""}}}};
+  const Measures made = of_solid(slices);
+  EXPECT_EQ(made.components, 1U);
+  EXPECT_EQ(made.genus, 0);
+}
+
+TEST(Registration, ASlantedWallAllRoundIsOneRing) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 5; ++i) slices.push_back(frame(15.0 * i, 8.75 * i));
+  expect_whole(slices, 1, 72000, 1e-9);
+}
+
+TEST(Registration, AnOrderLinksRingsThatLieWithinEachOther) {
+  Options options;
+  options.links = {{{0, 0}, {1, 0}, true}};
+  const std::vector<Slice> slices{frame(0, 0), frame(60, 35)};
+  const Reconstructed made = reconstruct(slices, options);
+  EXPECT_TRUE(made.repairs.empty());
+  expect_whole(slices, 1, 72000, 1e-9, options);
+}
+
+TEST(Registration, AFilamentIsFollowedAsFarAsMaxShiftAllows) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 6; ++i)
+    slices.push_back({1.0 * i, {{stacks::circle({4.5 * i, 0}, 1, 12), ""}}});
+  EXPECT_EQ(of_solid(slices).components, 6U);
+  Options options;
+  options.max_shift = 6;
+  expect_whole(slices, 0, 15, 1e-9, options);
+}
+
+/// The law of the turned stack, for what registration decides.
+TEST(Registration, TurningAndMirroringAStackChangesNothing) {
+  std::vector<Slice> hopper;
+  for (int i = 0; i < 5; ++i) hopper.push_back(frame(15.0 * i, 8.75 * i));
+  for (const std::vector<Slice>& slices : {travelling_folds(), hopper}) {
+    const Measures before = of_solid(slices);
+    for (const double angle : {0.3, 1.1, 2.0}) {
+      for (const double mirrored : {1.0, -1.0}) {
+        const Measures after = of_solid(turned(slices, angle, mirrored));
+        EXPECT_EQ(after.components, before.components) << angle;
+        EXPECT_EQ(after.genus, before.genus) << angle;
+        EXPECT_NEAR(after.volume, before.volume, 0.01 * before.volume) << angle;
+      }
+    }
+  }
+}
+
+TEST(Registration, EditsLeadToTheSameSurfaceAsTheWholeStack) {
+  const std::vector<Slice> slices = travelling_folds();
+  Reconstruction live;
+  live.insert(slices[0]);
+  live.insert(slices[2]);
+  live.insert(slices[1]);
+  const Measures batch = of_solid(slices);
+  EXPECT_EQ(measure(live.surface()).volume, batch.volume);
+  EXPECT_EQ(measure(live.surface()).genus, batch.genus);
+}
+
+TEST(Registration, IsReportedAsSuch) {
+  Options options;
+  options.reports_slabs = true;
+  const Reconstructed made = reconstruct(travelling_folds(), options);
+  for (const SlabReport& slab : made.slabs) {
+    ASSERT_EQ(slab.links.size(), 1U);
+    EXPECT_EQ(slab.links[0].reason, LinkReason::registered);
+    EXPECT_GT(slab.links[0].overlap, 0.6);
+  }
+}
+
+Region region_of(const std::vector<Point>& outline, double z = 0) {
+  return clean({z, {{outline, ""}}}, {}).region;
+}
+
+TEST(Registration, LeavesAloneWhatHasNotAsManyLoops) {
+  const Region ring = clean(frame(0, 0), {}).region;
+  const Region square = region_of({{0, 0}, {100, 0}, {100, 100}, {0, 100}}, 1);
+  EXPECT_FALSE(tile_registered(ring, square, {}, any_number));
+}
+
+TEST(Registration, KnowsHowFarAPartTurns) {
+  std::vector<Point> bar{{-20, -2}, {20, -2}, {20, 2}, {-20, 2}};
+  std::vector<Point> other;
+  for (const Point p : bar)
+    other.push_back({p.x * std::cos(0.3) - p.y * std::sin(0.3) + 1,
+                     p.x * std::sin(0.3) + p.y * std::cos(0.3) + 2});
+  const auto made = tile_registered(region_of(bar), region_of(other, 5), {}, any_number);
+  ASSERT_TRUE(made);
+  EXPECT_NEAR(made->motion.turn, 0.3, 0.01);
+  EXPECT_NEAR(made->motion.shift.x, 1, 0.1);
+  EXPECT_NEAR(made->motion.shift.y, 2, 0.1);
+  EXPECT_LT(made->difference, 8);
+}
+
+TEST(Matching, FindsTheSameLoopAgainWhereverItBegins) {
+  const Region region = region_of({{0, 0}, {9, 1}, {12, 6}, {5, 4}, {1, 8}});
+  const auto loop = stretches(region, 0, 256);
+  std::vector<Stretch> later(loop.begin() + 77, loop.end());
+  later.insert(later.end(), loop.begin(), loop.begin() + 77);
+  for (const Match match : match_outlines(loop, later, 1, 1, 64))
+    EXPECT_EQ(match.lower, (match.upper + 77) % 256);
+}
+
+/// However it is pulled, what comes out is a region still: no loop crosses another one or itself.
+TEST(Displacement, LeavesARegionARegion) {
+  std::mt19937 random(20261128);
+  std::uniform_real_distribution<double> way(-8, 8);
+  const Region region = clean(frame(0, 0), {}).region;
+  int moves = 0;
+  for (int i = 0; i < 200; ++i) {
+    SCOPED_TRACE(i);
+    std::vector<Pull> pulls;
+    for (std::uint32_t loop = 0; loop < 2; ++loop)
+      for (const Stretch& stretch : stretches(region, loop, 16))
+        pulls.push_back({stretch, {way(random), way(random)}, 1});
+    const auto made = Displacement::fit(region, pulls, 1);
+    if (!made) continue;
+    const Region there = moved(region, made->ways());
+    cdt::Triangulation mesh;
+    insert_loops(there, mesh);
+    EXPECT_EQ(mesh.vertex_count(), region.points.size());
+    EXPECT_TRUE(mesh.check().empty());
+    moves += made->ways()[0] != Point{};
+  }
+  EXPECT_GT(moves, 100);
+}
+
+}  // namespace
+}  // namespace loft
