@@ -130,20 +130,37 @@ class Simplifier {
   /// Numbers of faces by their places, and witnesses for them. Without tolerance none are needed.
   void rank_faces() {
     if (tolerance_ == 0) return;
-    std::vector<std::pair<Corners, Face>> sorted;
+    std::vector<std::pair<Corners, Halfedge>> sorted;  // from the first corner
     for (const auto f : surface_.faces()) {
       Corners t = corners(f);
+      Halfedge first = surface_.halfedge_handle(f);
+      for (auto turns = std::ranges::min_element(t) - t.begin(); turns > 0; --turns)
+        first = surface_.next_halfedge_handle(first);
       std::rotate(t.begin(), std::ranges::min_element(t), t.end());
-      sorted.emplace_back(t, f);
+      sorted.emplace_back(t, first);
     }
-    std::ranges::sort(sorted, {}, &std::pair<Corners, Face>::first);
+    std::ranges::sort(sorted, {}, &std::pair<Corners, Halfedge>::first);
     rank_of_.assign(surface_.n_faces(), 0);
     std::vector<Corners> ranked;
-    for (const auto& [t, f] : sorted) {
-      rank_of_[index(f)] = static_cast<std::uint32_t>(ranked.size());
+    for (const auto& [t, first] : sorted) {
+      rank_of_[index(surface_.face_handle(first))] = static_cast<std::uint32_t>(ranked.size());
       ranked.push_back(t);
     }
-    witnesses_.emplace(std::move(ranked), tolerance_);
+    std::vector<Cover::Neighbours> neighbours;
+    for (const auto& [t, first] : sorted) neighbours.push_back(neighbours_of(first));
+    witnesses_.emplace(std::move(ranked), std::move(neighbours), tolerance_);
+  }
+
+  /// The ranks of the faces across the edges of a face, from one on.
+  [[nodiscard]] Cover::Neighbours neighbours_of(Halfedge first) const {
+    Cover::Neighbours result;
+    for (std::uint32_t& neighbour : result) {
+      const Halfedge outer = surface_.opposite_halfedge_handle(first);
+      neighbour =
+          surface_.is_boundary(outer) ? Cover::none : rank_of_[index(surface_.face_handle(outer))];
+      first = surface_.next_halfedge_handle(first);
+    }
+    return result;
   }
 
   /// Over the faces that are left. Its items are their places in `live_faces_`.

@@ -20,13 +20,15 @@ Box3 box(const Corners& t) { return box_around(t[0], t[1], t[2]); }
 
 }  // namespace
 
-Witnesses::Witnesses(std::vector<Corners> faces, double distance)
+Witnesses::Witnesses(std::vector<Corners> faces, std::vector<Cover::Neighbours> neighbours,
+                     double distance)
     : first_(std::move(faces)),
       current_(first_),
       witnesses_(first_.size()),
       first_is_mapped_(first_.size(), true),
       is_mapped_(first_.size(), true),
       distance_(distance),
+      cover_(first_, std::move(neighbours), distance),
       nearness_(distance),
       gone_(first_.size(), 0) {
   for (std::uint32_t face = 0; face < first_.size(); ++face) witnesses_[face] = {face};
@@ -109,7 +111,8 @@ bool Witnesses::made_is_near(const Change& change) {
   choice_corners_.clear();
   for (const std::uint32_t face : choice_) choice_corners_.push_back(first_[face]);
   return std::ranges::all_of(change.made, [this](const Made& each) {
-    return nearness_.all_near(each.corners, choice_corners_);
+    return cover_.covers(each.corners, choice_) ||
+           nearness_.all_near(each.corners, choice_corners_);
   });
 }
 

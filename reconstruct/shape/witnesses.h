@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/predicates.h"
+#include "reconstruct/shape/cover.h"
 #include "reconstruct/shape/nearness.h"
 
 namespace loft {
@@ -33,7 +34,10 @@ class Witnesses {
     Corners corners;
   };
 
-  Witnesses(std::vector<Corners> faces, double distance);
+  /// `neighbours`: of each face, as Cover asks for them.
+  Witnesses(std::vector<Corners> faces, std::vector<Cover::Neighbours> neighbours, double distance);
+  Witnesses(const Witnesses&) = delete;
+  Witnesses& operator=(const Witnesses&) = delete;
 
   /// Faces `gone` that are to be replaced by `made`, which take over numbers of theirs.
   struct Change {
@@ -74,6 +78,7 @@ class Witnesses {
   std::vector<bool> first_is_mapped_;  // of each first face: its witnesses came by maps alone
   std::vector<bool> is_mapped_;        // the same of each current face, and its corners
   double distance_;
+  Cover cover_;  // by the faces as they were
   Nearness nearness_;
 
   // Of the change at hand.
