@@ -110,6 +110,16 @@ bool TurnedBox::is_apart(const Box3& around, const TurnedBox& turned, const Box3
   return false;
 }
 
+bool TurnedBox::is_apart(const Box3& around, const Corners& triangle, const Box3& other) const {
+  const double slack = rounding * (largest(around) + largest(other));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [low, high] = std::minmax(
+        {dot(axes_[i], triangle[0]), dot(axes_[i], triangle[1]), dot(axes_[i], triangle[2])});
+    if (low - slack > high_[i] || high + slack < low_[i]) return true;
+  }
+  return false;
+}
+
 Lie lie_of_points(std::span<const Vec3> points) {
   Lie lie;
   for (const Vec3& p : points) {

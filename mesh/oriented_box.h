@@ -46,10 +46,18 @@ class TurnedBox {
     }
   }
 
+  /// To either side of each axis.
+  void grow(double reach) {
+    for (double& x : low_) x -= reach;
+    for (double& x : high_) x += reach;
+  }
+
   /// Whether an axis of it shows that it is apart from a box along the axes, or from a turned one.
   /// `around`, `other`: boxes along the axes around what it, and the other one, holds.
   [[nodiscard]] bool is_apart(const Box3& around, const Box3& other) const;
   [[nodiscard]] bool is_apart(const Box3& around, const TurnedBox& turned, const Box3& other) const;
+  /// The same of a triangle.
+  [[nodiscard]] bool is_apart(const Box3& around, const Corners& triangle, const Box3& other) const;
 
  private:
   std::array<Vec3, 3> axes_{};  // unit vectors at right angles

@@ -16,6 +16,11 @@ using Vertices = TrianglePairs::Vertices;
 /// A vertex of more triangles than that has a fan; below, boxes are as good.
 constexpr std::uint32_t least_fan = 24;
 
+Box3 grown(const Box3& box, double reach) {
+  const Vec3 way{reach, reach, reach};
+  return {minus(box.low, way), along(box.high, 1, way)};
+}
+
 Vec3 middle(const Box3& box) {
   return {box.low[0] + box.high[0], box.low[1] + box.high[1], box.low[2] + box.high[2]};
 }
@@ -50,8 +55,8 @@ Box3 arc_of(const Corners& t, std::size_t corner) {
 class TrianglePairs::Builder {
  public:
   Builder(TrianglePairs& pairs, std::span<const Corners> triangles,
-          std::span<const Vertices> vertices, std::size_t vertex_count)
-      : pairs_(pairs), triangles_(triangles), vertices_(vertices) {
+          std::span<const Vertices> vertices, std::size_t vertex_count, double reach)
+      : pairs_(pairs), triangles_(triangles), vertices_(vertices), reach_(reach) {
     lies_.reserve(triangles.size());
     for (const Corners& t : triangles) lies_.push_back(lie_of(t));
     std::vector<Unit> units = units_of(find_hubs(vertex_count));
@@ -87,7 +92,7 @@ class TrianglePairs::Builder {
 
   [[nodiscard]] Box3 box(std::uint32_t triangle) const {
     const auto& [a, b, c] = triangles_[triangle];
-    return box_around(a, b, c);
+    return grown(box_around(a, b, c), reach_);
   }
 
   [[nodiscard]] std::span<const std::uint32_t> triangles_of(const Unit& unit) const {
@@ -183,6 +188,7 @@ class TrianglePairs::Builder {
     for (const Unit& unit : units)
       for (const std::uint32_t t : triangles_of(unit))
         for (const Vec3& p : triangles_[t]) turned.add(p);
+    turned.grow(reach_);
     pairs_.nodes_[node].turned = static_cast<std::uint32_t>(pairs_.turned_.size());
     pairs_.turned_.push_back(turned);
   }
@@ -202,13 +208,14 @@ class TrianglePairs::Builder {
   TrianglePairs& pairs_;
   std::span<const Corners> triangles_;
   std::span<const Vertices> vertices_;
+  double reach_;
   std::vector<Lie> lies_;
   std::vector<std::uint32_t> order_;  // of the triangles, by units
 };
 
 TrianglePairs::TrianglePairs(std::span<const Corners> triangles, std::span<const Vertices> vertices,
-                             std::size_t vertex_count) {
-  Builder(*this, triangles, vertices, vertex_count);
+                             std::size_t vertex_count, double reach) {
+  Builder(*this, triangles, vertices, vertex_count, reach);
 }
 
 bool TrianglePairs::are_apart(const Node& a, const Node& b) const {

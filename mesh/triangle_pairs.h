@@ -25,8 +25,10 @@ class TrianglePairs {
   using Vertices = std::array<std::uint32_t, 3>;
 
   /// `vertices`: the numbers of each triangle's corners, below `vertex_count`.
+  /// `reach`: triangles no further apart than that count as those that may meet. Precondition if it
+  /// is not 0: no triangles have a vertex in common.
   TrianglePairs(std::span<const Corners> triangles, std::span<const Vertices> vertices,
-                std::size_t vertex_count);
+                std::size_t vertex_count, double reach = 0);
 
   /// Whether a test holds for every two triangles of which triangles_meet() may be true, once each;
   /// stops at the first that fail. Precondition: none is degenerate, else pairs with it may be left

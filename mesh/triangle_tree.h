@@ -56,6 +56,11 @@ class TriangleTree {
   class Builder;
 
   [[nodiscard]] bool may_meet(const Node& node, const OrientedBox& query) const;
+  [[nodiscard]] static bool may_meet(const Corners& triangle, const OrientedBox& query) {
+    const Box3 box = box_around(triangle[0], triangle[1], triangle[2]);
+    return boxes_meet(box, query.box) &&
+           !(query.is_turned && query.turned.is_apart(query.box, triangle, box));
+  }
   /// Puts a triangle into a leaf, or below what was one.
   void insert(std::uint32_t number, const Corners& triangle, std::uint32_t node);
   /// The same where the leaf is full.
@@ -68,11 +73,9 @@ class TriangleTree {
     if (!boxes_meet(n.box, query.box) || !may_meet(n, query)) return true;
     if (n.first != 0) return search(n.first, query, test) && search(n.first + 1, query, test);
     const Leaf& leaf = leaves_[n.leaf];
-    for (std::uint32_t i = 0; i < leaf.size; ++i) {
-      const auto& [a, b, c] = leaf.triangles[i];
-      if (boxes_meet(box_around(a, b, c), query.box) && !test(leaf.numbers[i], leaf.triangles[i]))
+    for (std::uint32_t i = 0; i < leaf.size; ++i)
+      if (may_meet(leaf.triangles[i], query) && !test(leaf.numbers[i], leaf.triangles[i]))
         return false;
-    }
     return true;
   }
 
