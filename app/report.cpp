@@ -2,6 +2,7 @@
 #include "app/report.h"
 
 #include <cmath>
+#include <optional>
 #include <set>
 #include <sstream>
 
