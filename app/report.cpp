@@ -2,22 +2,30 @@
 #include "app/report.h"
 
 #include <cmath>
+#include <optional>
+#include <set>
 #include <sstream>
 
 namespace loft::app {
 
-StackSize size_of(const std::vector<Slice>& stack, const std::optional<std::string>& label) {
+StackSize size_of(const std::vector<Slice>& stack) {
   StackSize size;
   for (const Slice& slice : stack) {
-    const std::size_t before = size.contours;
-    for (const Contour& contour : slice.contours) {
-      if (label && contour.label != *label) continue;
-      ++size.contours;
-      size.vertices += contour.points.size();
-    }
-    if (size.contours > before) ++size.slices;
+    if (!slice.contours.empty()) ++size.slices;
+    size.contours += slice.contours.size();
+    for (const Contour& contour : slice.contours) size.vertices += contour.points.size();
   }
   return size;
+}
+
+void add_sizes(std::map<std::string, StackSize>& of_labels, const Slice& slice) {
+  std::set<std::string_view> seen;
+  for (const Contour& contour : slice.contours) {
+    StackSize& size = of_labels[contour.label];
+    if (seen.insert(contour.label).second) ++size.slices;
+    ++size.contours;
+    size.vertices += contour.points.size();
+  }
 }
 
 StackSize size_of(const std::vector<Slice>& stack, std::span<const ContourId> contours) {

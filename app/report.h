@@ -3,7 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,12 +24,13 @@ struct StackSize {
   std::size_t vertices = 0;
 };
 
-/// The contours with this label; all contours where it is not set.
-[[nodiscard]] StackSize size_of(const std::vector<Slice>& stack,
-                                const std::optional<std::string>& label = std::nullopt);
+[[nodiscard]] StackSize size_of(const std::vector<Slice>& stack);
 /// Of some contours, in order.
 [[nodiscard]] StackSize size_of(const std::vector<Slice>& stack,
                                 std::span<const ContourId> contours);
+
+/// Adds what there is of each label in a slice.
+void add_sizes(std::map<std::string, StackSize>& of_labels, const Slice& slice);
 
 /// `1,234,567`
 [[nodiscard]] std::string grouped(std::size_t number);

@@ -13,19 +13,6 @@ std::size_t longest_axis(const Box3& box) {
   return longest;
 }
 
-Box3 joined(const Box3& a, const Box3& b) {
-  Box3 result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.low[axis] = std::min(a.low[axis], b.low[axis]);
-    result.high[axis] = std::max(a.high[axis], b.high[axis]);
-  }
-  return result;
-}
-
-Box3 box_around(const Vec3& a, const Vec3& b, const Vec3& c) {
-  return joined(joined({a, a}, {b, b}), {c, c});
-}
-
 BoxTree::BoxTree(std::span<const Box3> boxes) {
   if (boxes.empty()) return;
   items_.reserve(boxes.size());

@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "cdt/expansion.h"
-#include "mesh/box_tree.h"
 #include "mesh/predicates.h"
+#include "mesh/triangle_tree.h"
 
 namespace loft {
 
@@ -143,25 +143,22 @@ bool is_above(const Corners& face, const Vec3& place) {
   return orient3d(face[0], face[1], face[2], place) == -turn;
 }
 
-BoxTree tree_of(const Mesh& mesh, std::span<const std::uint32_t> faces) {
-  std::vector<Box3> boxes;
-  boxes.reserve(faces.size());
-  for (const std::uint32_t face : faces) {
-    const auto [a, b, c] = corners(mesh, face);
-    boxes.push_back(box_around(a, b, c));
-  }
-  return BoxTree(boxes);
+TriangleTree tree_of(const Mesh& mesh, std::span<const std::uint32_t> faces) {
+  std::vector<Corners> triangles;
+  triangles.reserve(faces.size());
+  for (const std::uint32_t face : faces) triangles.push_back(corners(mesh, face));
+  return TriangleTree(triangles);
 }
 
 /// How many shells other than `self` have the place inside: an odd number of faces above it.
-std::uint32_t depth(const Mesh& mesh, const Membership& membership, std::uint32_t self,
-                    const Vec3& place, std::span<const std::uint32_t> faces, const BoxTree& tree) {
+std::uint32_t depth(const Membership& membership, std::uint32_t self, const Vec3& place, double top,
+                    std::span<const std::uint32_t> faces, const TriangleTree& tree) {
   std::vector<std::uint32_t> crossed;
-  const Box3 line{place, {place[0], place[1], std::numeric_limits<double>::infinity()}};
-  tree.for_each_meeting(line, [&](std::uint32_t i) {
+  const std::array<Vec3, 2> line{place, Vec3{place[0], place[1], top}};
+  (void)tree.all_of_meeting(line, [&](std::uint32_t i, const Corners& face) {
     const std::uint32_t shell = membership.of_face[faces[i]];
-    if (shell == none || shell == self) return;
-    if (is_above(corners(mesh, faces[i]), place)) crossed.push_back(shell);
+    if (shell != none && shell != self && is_above(face, place)) crossed.push_back(shell);
+    return true;
   });
   std::ranges::sort(crossed);
   std::uint32_t result = 0;
@@ -181,12 +178,14 @@ std::vector<Shell> shells(const Mesh& mesh, std::span<const std::uint32_t> compo
   measure_volumes(mesh, membership);
   if (membership.shells.size() < 2) return membership.shells;
   const std::vector<std::uint32_t> own = own_vertices(mesh, membership);
-  const BoxTree tree = tree_of(mesh, faces);
+  const TriangleTree tree = tree_of(mesh, faces);
+  double top = -std::numeric_limits<double>::infinity();
+  for (const Vec3& p : mesh.points) top = std::max(top, p[2]);
   for (std::uint32_t s = 0; s < own.size(); ++s) {
     Shell& shell = membership.shells[s];
     const Vec3 place =
         own[s] != none ? mesh.points[own[s]] : middle(corners(mesh, shell.first_face));
-    shell.depth = depth(mesh, membership, s, place, faces, tree);
+    shell.depth = depth(membership, s, place, top, faces, tree);
   }
   return membership.shells;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mesh/vec3.h"
 
@@ -11,8 +10,12 @@ namespace loft {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::array<Vec3, 3> frame_of_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
+/// In its length: a triangle of less height is thin.
+constexpr double thin = 0.25;
+/// In lengths of what it holds: a larger box need not be turned, as what asks for it is no larger.
+constexpr double large = 8;
 
 /// Of a sum of a few products with unit vectors, in magnitudes of coordinates: about 30 roundings.
 constexpr double rounding = 0x1p-47;
@@ -27,6 +30,10 @@ Vec3 unit(const Vec3& a) {
   const double size = length(scaled);
   return {scaled[0] / size, scaled[1] / size, scaled[2] / size};
 }
+
+double largest(const Box3& box) { return std::max(largest(box.low), largest(box.high)); }
+
+double extent(const Box3& box) { return largest(minus(box.high, box.low)); }
 
 /// The part of a at a right angle to a unit vector.
 Vec3 beside(const Vec3& a, const Vec3& axis) { return along(a, -dot(a, axis), axis); }
@@ -49,92 +56,98 @@ void add_along(Vec3& sum, const Vec3& way) {
 }  // namespace
 
 Lie lie_of(const Corners& t) {
-  std::array edges{minus(t[1], t[0]), minus(t[2], t[1]), minus(t[0], t[2])};
-  std::ranges::sort(edges, std::ranges::greater{}, [](const Vec3& e) { return largest(e); });
-  const Vec3 longest = unit(edges[0]);
-  return {longest, unit(cross(longest, unit(edges[1])))};
+  const std::array edges{minus(t[1], t[0]), minus(t[2], t[1]), minus(t[0], t[2])};
+  std::size_t longest = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (squared_length(edges[i]) > squared_length(edges[longest])) longest = i;
+  const Vec3 across = cross(edges[0], edges[1]);
+  const double square = squared_length(edges[longest]);
+  if (!(squared_length(across) < thin * thin * square * square)) return {};
+  return {unit(edges[longest]), unit(across), std::sqrt(square)};
 }
 
 void add_lie(Lie& sum, const Lie& lie) {
   add_along(sum.along, lie.along);
   add_along(sum.across, lie.across);
+  sum.length += lie.length;
 }
 
-OrientedBox::OrientedBox() : OrientedBox(Lie{}) {}
+Lie lie_of_most(const Lie& sum, std::size_t count, const Box3& box) {
+  const auto all = static_cast<double>(count);
+  const bool is_alike = squared_length(sum.along) > all * all / 4;
+  return is_alike && extent(box) < large * sum.length / all ? sum : Lie{};
+}
 
-OrientedBox::OrientedBox(const Lie& lie)
-    : box_{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}},
-      axes_(frame_of(lie)),
-      low_(box_.low),
-      high_(box_.high) {}
+TurnedBox::TurnedBox(const Lie& lie) : axes_(frame_of(lie)), low_(no_box.low), high_(no_box.high) {}
 
-OrientedBox::OrientedBox(std::span<const Vec3> points) {
+bool TurnedBox::is_apart(const Box3& around, const Box3& other) const {
+  const double slack = rounding * (largest(around) + largest(other));
+  const Vec3 sums = along(other.low, 1, other.high);
+  const Vec3 sizes = minus(other.high, other.low);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vec3& axis = axes_[i];
+    const double middle = dot(axis, sums) / 2;
+    const double half = slack + (std::abs(axis[0]) * sizes[0] + std::abs(axis[1]) * sizes[1] +
+                                 std::abs(axis[2]) * sizes[2]) /
+                                    2;
+    if (middle - half > high_[i] || middle + half < low_[i]) return true;
+  }
+  return false;
+}
+
+bool TurnedBox::is_apart(const Box3& around, const TurnedBox& turned, const Box3& other) const {
+  const double slack = rounding * (largest(around) + largest(other));
+  for (std::size_t i = 0; i < 3; ++i) {
+    double middle = 0;
+    double half = slack;
+    for (std::size_t j = 0; j < 3; ++j) {
+      const double share = dot(axes_[i], turned.axes_[j]);
+      middle += share * (turned.low_[j] + turned.high_[j]) / 2;
+      half += std::abs(share) * (turned.high_[j] - turned.low_[j]) / 2;
+    }
+    if (middle - half > high_[i] || middle + half < low_[i]) return true;
+  }
+  return false;
+}
+
+bool TurnedBox::is_apart(const Box3& around, const Corners& triangle, const Box3& other) const {
+  const double slack = rounding * (largest(around) + largest(other));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto [low, high] = std::minmax(
+        {dot(axes_[i], triangle[0]), dot(axes_[i], triangle[1]), dot(axes_[i], triangle[2])});
+    if (low - slack > high_[i] || high + slack < low_[i]) return true;
+  }
+  return false;
+}
+
+Lie lie_of_points(std::span<const Vec3> points) {
   Lie lie;
-  double longest = 0;
   for (const Vec3& p : points) {
     const Vec3 way = minus(p, points.front());
-    if (largest(way) <= longest) continue;
-    longest = largest(way);
-    lie.along = unit(way);
+    if (largest(way) <= lie.length) continue;
+    lie.length = largest(way);
+    lie.along = way;
   }
+  lie.along = unit(lie.along);
   double furthest = 0;
   for (const Vec3& p : points) {
     const Vec3 way = beside(minus(p, points.front()), lie.along);
     if (largest(way) <= furthest) continue;
     furthest = largest(way);
-    lie.across = cross(lie.along, unit(way));
+    lie.across = way;
   }
-  *this = OrientedBox(lie);
-  for (const Vec3& p : points) add(p);
+  if (!(furthest < thin * lie.length)) return {};
+  lie.across = cross(lie.along, unit(lie.across));
+  return lie;
 }
 
-void OrientedBox::add(const Vec3& point) {
-  box_ = joined(box_, {point, point});
-  largest_ = std::max(largest_, largest(point));
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double at = dot(axes_[i], point);
-    low_[i] = std::min(low_[i], at);
-    high_[i] = std::max(high_[i], at);
-  }
-}
-
-double OrientedBox::growth(const Corners& triangle) const {
-  double result = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    double low = low_[i];
-    double high = high_[i];
-    for (const Vec3& p : triangle) {
-      low = std::min(low, dot(axes_[i], p));
-      high = std::max(high, dot(axes_[i], p));
-    }
-    result += (low_[i] - low) + (high - high_[i]);
-  }
-  return result;
-}
-
-double OrientedBox::squared_distance(const Vec3& point) const {
-  double result = 0;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const double way = dot(axes_[i], point) - (low_[i] + high_[i]) / 2;
-    result += way * way;
-  }
-  return result;
-}
-
-/// Whether an axis of a shows them apart.
-bool OrientedBox::is_apart(const OrientedBox& a, const OrientedBox& b) {
-  const double slack = rounding * (a.largest_ + b.largest_);
-  for (std::size_t i = 0; i < 3; ++i) {
-    double middle = 0;
-    double half = slack;
-    for (std::size_t j = 0; j < 3; ++j) {
-      const double share = dot(a.axes_[i], b.axes_[j]);
-      middle += share * (b.low_[j] + b.high_[j]) / 2;
-      half += std::abs(share) * (b.high_[j] - b.low_[j]) / 2;
-    }
-    if (middle - half > a.high_[i] || middle + half < a.low_[i]) return true;
-  }
-  return false;
+OrientedBox::OrientedBox(std::span<const Vec3> points) {
+  for (const Vec3& p : points) box = extended(box, p);
+  const Lie lie = lie_of_points(points);
+  is_turned = lie.length > 0;
+  if (!is_turned) return;
+  turned = TurnedBox(lie);
+  for (const Vec3& p : points) turned.add(p);
 }
 
 }  // namespace loft

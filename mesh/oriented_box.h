@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <span>
 
 #include "mesh/box3.h"
@@ -9,52 +11,70 @@
 
 namespace loft {
 
-/// How a triangle lies: unit vectors along its longest edge and across its face; 0 where it has
-/// none.
+/// How a long thin triangle lies: unit vectors along its longest edge and across its face, and how
+/// long it is. All 0 of others, which boxes along the axes are good enough for.
 struct Lie {
   Vec3 along{};
   Vec3 across{};
+  double length = 0;
 };
 
 [[nodiscard]] Lie lie_of(const Corners& triangle);
 
-/// A box in space that is turned as what it holds lies, together with the axis-parallel one. Around
-/// long thin triangles side by side it is as narrow as they are together, however they run; an
-/// axis-parallel box is as wide as they are long, and meets the boxes of all that are near.
-/// Made of floating point, and larger by as much as that may err.
-class OrientedBox {
- public:
-  /// Holds nothing, in the frame of the axes.
-  OrientedBox();
-  /// Holds nothing, in the frame that triangles with this lie, or this sum of lies, suggest.
-  explicit OrientedBox(const Lie& lie);
-  /// The box around some points, in a frame that they suggest.
-  explicit OrientedBox(std::span<const Vec3> points);
-
-  void add(const Vec3& point);
-  [[nodiscard]] const Box3& box() const { return box_; }
-
-  /// How far it would have to grow, along its axes, to hold a triangle.
-  [[nodiscard]] double growth(const Corners& triangle) const;
-  /// The square of the distance from its middle to a point.
-  [[nodiscard]] double squared_distance(const Vec3& point) const;
-
-  /// False if no point of either is in the other. May be true of boxes that are apart.
-  friend bool may_meet(const OrientedBox& a, const OrientedBox& b) {
-    return boxes_meet(a.box_, b.box_) && !is_apart(a, b) && !is_apart(b, a);
-  }
-
- private:
-  static bool is_apart(const OrientedBox& a, const OrientedBox& b);
-
-  Box3 box_;
-  std::array<Vec3, 3> axes_;  // unit vectors at right angles
-  Vec3 low_;                  // along these
-  Vec3 high_;
-  double largest_ = 0;  // magnitude of a coordinate: what rounding is measured by
-};
-
 /// Adds a lie to a sum of lies that run along each other either way.
 void add_lie(Lie& sum, const Lie& lie);
+
+/// How some triangles lie together, in a box along the axes: like none, unless most are long and
+/// thin and run one way, and the box is not much larger than they are.
+[[nodiscard]] Lie lie_of_most(const Lie& sum, std::size_t count, const Box3& box);
+
+/// A box that is turned as what it holds lies. Around long thin triangles side by side it is as
+/// narrow as they are together, however they run; an axis-parallel box is as wide as they are long,
+/// and meets the boxes of all that are near.
+/// Made of floating point, and larger by as much as that may err.
+class TurnedBox {
+ public:
+  TurnedBox() = default;
+  /// Holds nothing. Precondition: the lie has a length.
+  explicit TurnedBox(const Lie& lie);
+
+  void add(const Vec3& point) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double at = axes_[i][0] * point[0] + axes_[i][1] * point[1] + axes_[i][2] * point[2];
+      low_[i] = std::min(low_[i], at);
+      high_[i] = std::max(high_[i], at);
+    }
+  }
+
+  /// To either side of each axis.
+  void grow(double reach) {
+    for (double& x : low_) x -= reach;
+    for (double& x : high_) x += reach;
+  }
+
+  /// Whether an axis of it shows that it is apart from a box along the axes, or from a turned one.
+  /// `around`, `other`: boxes along the axes around what it, and the other one, holds.
+  [[nodiscard]] bool is_apart(const Box3& around, const Box3& other) const;
+  [[nodiscard]] bool is_apart(const Box3& around, const TurnedBox& turned, const Box3& other) const;
+  /// The same of a triangle.
+  [[nodiscard]] bool is_apart(const Box3& around, const Corners& triangle, const Box3& other) const;
+
+ private:
+  std::array<Vec3, 3> axes_{};  // unit vectors at right angles
+  Vec3 low_{};                  // along these
+  Vec3 high_{};
+};
+
+/// How some points lie together, as lie_of_most(): like none unless they are long and thin.
+[[nodiscard]] Lie lie_of_points(std::span<const Vec3> points);
+
+/// A box along the axes and, around what is long and thin, a turned one.
+struct OrientedBox {
+  explicit OrientedBox(std::span<const Vec3> points);
+
+  Box3 box = no_box;
+  bool is_turned = false;
+  TurnedBox turned;
+};
 
 }  // namespace loft

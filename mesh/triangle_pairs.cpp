@@ -16,6 +16,11 @@ using Vertices = TrianglePairs::Vertices;
 /// A vertex of more triangles than that has a fan; below, boxes are as good.
 constexpr std::uint32_t least_fan = 24;
 
+Box3 grown(const Box3& box, double reach) {
+  const Vec3 way{reach, reach, reach};
+  return {minus(box.low, way), along(box.high, 1, way)};
+}
+
 Vec3 middle(const Box3& box) {
   return {box.low[0] + box.high[0], box.low[1] + box.high[1], box.low[2] + box.high[2]};
 }
@@ -50,8 +55,8 @@ Box3 arc_of(const Corners& t, std::size_t corner) {
 class TrianglePairs::Builder {
  public:
   Builder(TrianglePairs& pairs, std::span<const Corners> triangles,
-          std::span<const Vertices> vertices, std::size_t vertex_count)
-      : pairs_(pairs), triangles_(triangles), vertices_(vertices) {
+          std::span<const Vertices> vertices, std::size_t vertex_count, double reach)
+      : pairs_(pairs), triangles_(triangles), vertices_(vertices), reach_(reach) {
     lies_.reserve(triangles.size());
     for (const Corners& t : triangles) lies_.push_back(lie_of(t));
     std::vector<Unit> units = units_of(find_hubs(vertex_count));
@@ -61,11 +66,14 @@ class TrianglePairs::Builder {
   }
 
  private:
-  /// One triangle, or a fan, of which all have one place in the order.
+  /// One triangle, or a fan, of which all have one place in the tree.
   struct Unit {
-    std::vector<std::uint32_t> triangles;
+    std::uint32_t first;  // of order_
+    std::uint32_t last;
     Vec3 middle;
     std::uint32_t hub = none;
+
+    [[nodiscard]] std::uint32_t size() const { return last - first; }
   };
 
   /// Each triangle at a vertex of many is in the fan of that, of several of the largest.
@@ -84,30 +92,36 @@ class TrianglePairs::Builder {
 
   [[nodiscard]] Box3 box(std::uint32_t triangle) const {
     const auto& [a, b, c] = triangles_[triangle];
-    return box_around(a, b, c);
+    return grown(box_around(a, b, c), reach_);
   }
 
-  [[nodiscard]] Unit unit_of(std::vector<std::uint32_t> triangles, std::uint32_t hub) const {
-    Box3 all = box(triangles.front());
-    for (const std::uint32_t t : triangles) all = joined(all, box(t));
-    return {std::move(triangles), middle(all), hub};
+  [[nodiscard]] std::span<const std::uint32_t> triangles_of(const Unit& unit) const {
+    return std::span(order_).subspan(unit.first, unit.size());
   }
 
-  [[nodiscard]] std::vector<Unit> units_of(std::span<const std::uint32_t> hubs) const {
-    std::vector<std::uint32_t> in_fans;
+  [[nodiscard]] Unit unit_of(std::uint32_t first, std::uint32_t last, std::uint32_t hub) const {
+    Box3 all = no_box;
+    for (std::uint32_t i = first; i < last; ++i) all = joined(all, box(order_[i]));
+    return {first, last, middle(all), hub};
+  }
+
+  /// Puts the triangles in order: first those that are alone, then fan by fan.
+  [[nodiscard]] std::vector<Unit> units_of(std::span<const std::uint32_t> hubs) {
+    for (std::uint32_t t = 0; t < hubs.size(); ++t)
+      if (hubs[t] == none) order_.push_back(t);
+    const auto alone = static_cast<std::uint32_t>(order_.size());
+    for (std::uint32_t t = 0; t < hubs.size(); ++t)
+      if (hubs[t] != none) order_.push_back(t);
+    std::stable_sort(order_.begin() + alone, order_.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return hubs[a] < hubs[b]; });
     std::vector<Unit> units;
-    for (std::uint32_t t = 0; t < hubs.size(); ++t) {
-      if (hubs[t] == none)
-        units.push_back(unit_of({t}, none));
-      else
-        in_fans.push_back(t);
-    }
-    std::ranges::stable_sort(in_fans, {}, [&](std::uint32_t t) { return hubs[t]; });
-    for (auto first = in_fans.begin(); first != in_fans.end();) {
-      const std::uint32_t hub = hubs[*first];
-      const auto last =
-          std::find_if(first, in_fans.end(), [&](std::uint32_t t) { return hubs[t] != hub; });
-      units.push_back(unit_of({first, last}, hub));
+    units.reserve(alone);
+    for (std::uint32_t i = 0; i < alone; ++i) units.push_back(unit_of(i, i + 1, none));
+    for (std::uint32_t first = alone; first < order_.size();) {
+      const std::uint32_t hub = hubs[order_[first]];
+      std::uint32_t last = first;
+      while (last < order_.size() && hubs[order_[last]] == hub) ++last;
+      units.push_back(unit_of(first, last, hub));
       first = last;
     }
     return units;
@@ -115,15 +129,15 @@ class TrianglePairs::Builder {
 
   /// The place of the node that holds them.
   std::uint32_t build(std::span<Unit> units) {
-    if (units.size() == 1 && units[0].triangles.size() > 1) return build_fan(units[0]);
+    if (units.size() == 1 && units[0].size() > 1) return build_fan(units[0]);
     const auto node = static_cast<std::uint32_t>(pairs_.nodes_.size());
-    pairs_.nodes_.push_back({.box = box_of(units), .first = item_count()});
-    const bool is_leaf = units.size() <= leaf_size && std::ranges::all_of(units, [](const Unit& u) {
-                           return u.triangles.size() == 1;
-                         });
+    pairs_.nodes_.push_back({.first = item_count()});
+    surround(node, units);
+    const bool is_leaf = units.size() <= leaf_size &&
+                         std::ranges::all_of(units, [](const Unit& u) { return u.size() == 1; });
     if (is_leaf) {
       for (const Unit& unit : units)
-        pairs_.items_.push_back({box(unit.triangles[0]), unit.triangles[0]});
+        pairs_.items_.push_back({box(order_[unit.first]), order_[unit.first]});
     } else {
       const std::size_t half = halve(units);
       build(units.first(half));
@@ -136,13 +150,14 @@ class TrianglePairs::Builder {
   /// Over the triangles of one fan, and its arcs.
   std::uint32_t build_fan(const Unit& fan) {
     std::vector<Unit> units;
-    for (const std::uint32_t t : fan.triangles) units.push_back(unit_of({t}, none));
+    for (std::uint32_t i = fan.first; i < fan.last; ++i) units.push_back(unit_of(i, i + 1, none));
+    const std::uint32_t hub = fan.hub;
     const std::uint32_t node = build(units);
     const std::uint32_t first = pairs_.nodes_[node].first;
     std::vector<Box3> arcs;
     for (std::uint32_t i = first; i < item_count(); ++i) {
       const std::uint32_t t = pairs_.items_[i].index;
-      const auto corner = std::ranges::find(vertices_[t], fan.hub) - vertices_[t].begin();
+      const auto corner = std::ranges::find(vertices_[t], hub) - vertices_[t].begin();
       arcs.push_back(arc_of(triangles_[t], static_cast<std::size_t>(corner)));
     }
     pairs_.nodes_[node].fan = static_cast<std::uint32_t>(pairs_.fans_.size());
@@ -154,15 +169,28 @@ class TrianglePairs::Builder {
     return static_cast<std::uint32_t>(pairs_.items_.size());
   }
 
-  [[nodiscard]] OrientedBox box_of(std::span<const Unit> units) const {
+  /// Makes the boxes of a node.
+  void surround(std::uint32_t node, std::span<const Unit> units) {
+    Box3 all = no_box;
     Lie lie;
+    std::size_t count = 0;
+    for (const Unit& unit : units) {
+      count += unit.size();
+      for (const std::uint32_t t : triangles_of(unit)) {
+        all = joined(all, box(t));
+        if (lies_[t].length > 0) add_lie(lie, lies_[t]);
+      }
+    }
+    pairs_.nodes_[node].box = all;
+    lie = lie_of_most(lie, count, all);
+    if (lie.length == 0) return;
+    TurnedBox turned(lie);
     for (const Unit& unit : units)
-      for (const std::uint32_t t : unit.triangles) add_lie(lie, lies_[t]);
-    OrientedBox box(lie);
-    for (const Unit& unit : units)
-      for (const std::uint32_t t : unit.triangles)
-        for (const Vec3& p : triangles_[t]) box.add(p);
-    return box;
+      for (const std::uint32_t t : triangles_of(unit))
+        for (const Vec3& p : triangles_[t]) turned.add(p);
+    turned.grow(reach_);
+    pairs_.nodes_[node].turned = static_cast<std::uint32_t>(pairs_.turned_.size());
+    pairs_.turned_.push_back(turned);
   }
 
   /// Puts the units of one half of the space first; how many they are.
@@ -173,19 +201,30 @@ class TrianglePairs::Builder {
     const std::size_t half = units.size() / 2;
     std::ranges::nth_element(
         units, units.begin() + static_cast<std::ptrdiff_t>(half), {},
-        [axis](const Unit& unit) { return std::pair(unit.middle[axis], unit.triangles[0]); });
+        [axis](const Unit& unit) { return std::pair(unit.middle[axis], unit.first); });
     return half;
   }
 
   TrianglePairs& pairs_;
   std::span<const Corners> triangles_;
   std::span<const Vertices> vertices_;
+  double reach_;
   std::vector<Lie> lies_;
+  std::vector<std::uint32_t> order_;  // of the triangles, by units
 };
 
 TrianglePairs::TrianglePairs(std::span<const Corners> triangles, std::span<const Vertices> vertices,
-                             std::size_t vertex_count) {
-  Builder(*this, triangles, vertices, vertex_count);
+                             std::size_t vertex_count, double reach) {
+  Builder(*this, triangles, vertices, vertex_count, reach);
+}
+
+bool TrianglePairs::are_apart(const Node& a, const Node& b) const {
+  if (a.turned == none && b.turned == none) return false;
+  if (a.turned == none) return turned_[b.turned].is_apart(b.box, a.box);
+  if (b.turned == none) return turned_[a.turned].is_apart(a.box, b.box);
+  const TurnedBox& turned_a = turned_[a.turned];
+  const TurnedBox& turned_b = turned_[b.turned];
+  return turned_a.is_apart(a.box, turned_b, b.box) || turned_b.is_apart(b.box, turned_a, a.box);
 }
 
 }  // namespace loft

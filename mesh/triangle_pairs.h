@@ -16,17 +16,19 @@ namespace loft {
 
 /// Finds the pairs of triangles that may meet elsewhere than in common corners.
 ///
-/// A tree of oriented boxes, so that long thin triangles side by side are told apart. No box tells
-/// triangles apart that have a corner in common; where hundreds have, they are one branch of the
-/// tree, and told apart by the arcs that they show to that corner.
-/// Cost: O(n log n) to build, about 250 bytes a triangle.
+/// A tree of boxes, turned where that helps, so that long thin triangles side by side are told
+/// apart. No box tells triangles apart that have a corner in common; where hundreds have, they are
+/// one branch of the tree, and told apart by the arcs that they show to that corner. Cost: O(n log
+/// n) to build, about 200 bytes a triangle.
 class TrianglePairs {
  public:
   using Vertices = std::array<std::uint32_t, 3>;
 
   /// `vertices`: the numbers of each triangle's corners, below `vertex_count`.
+  /// `reach`: triangles no further apart than that count as those that may meet. Precondition if it
+  /// is not 0: no triangles have a vertex in common.
   TrianglePairs(std::span<const Corners> triangles, std::span<const Vertices> vertices,
-                std::size_t vertex_count);
+                std::size_t vertex_count, double reach = 0);
 
   /// Whether a test holds for every two triangles of which triangles_meet() may be true, once each;
   /// stops at the first that fail. Precondition: none is degenerate, else pairs with it may be left
@@ -50,12 +52,12 @@ class TrianglePairs {
 
   /// An inner node's first child follows it in nodes_.
   struct Node {
-    OrientedBox box;
+    Box3 box = no_box;
     std::uint32_t first = 0;  ///< its triangles are items_[first, last)
     std::uint32_t last = 0;
-    std::uint32_t second = 0;  ///< the second child; 0 in a leaf
-    std::uint32_t fan =
-        none;  ///< the place in fans_ of the arcs of all its triangles, if it is one
+    std::uint32_t second = 0;     ///< the second child; 0 in a leaf
+    std::uint32_t turned = none;  ///< the place of its turned box, if it has one
+    std::uint32_t fan = none;     ///< the place of the arcs of all its triangles, if it is one
   };
   struct Item {
     Box3 box;
@@ -67,6 +69,9 @@ class TrianglePairs {
   };
   class Builder;
 
+  /// Whether turned boxes show two nodes apart.
+  [[nodiscard]] bool are_apart(const Node& a, const Node& b) const;
+
   template <class Test>
   bool within(std::uint32_t node, Test& test) const;
   template <class Test>
@@ -76,6 +81,7 @@ class TrianglePairs {
 
   std::vector<Item> items_;
   std::vector<Node> nodes_;  ///< root first, parents before children
+  std::vector<TurnedBox> turned_;
   std::vector<Fan> fans_;
 };
 
@@ -103,7 +109,7 @@ bool TrianglePairs::between(std::uint32_t a, std::uint32_t b, Test& test) const 
   const Node& node_a = nodes_[a];
   const Node& node_b = nodes_[b];
   cdt::spend();
-  if (!may_meet(node_a.box, node_b.box)) return true;
+  if (!boxes_meet(node_a.box, node_b.box) || are_apart(node_a, node_b)) return true;
   if (node_a.second == 0 && node_b.second == 0) return leaves(node_a, node_b, test);
   if (node_b.second == 0 ||
       (node_a.second != 0 && node_a.last - node_a.first >= node_b.last - node_b.first))
@@ -115,7 +121,7 @@ template <class Test>
 bool TrianglePairs::leaves(const Node& a, const Node& b, Test& test) const {
   for (std::uint32_t i = a.first; i < a.last; ++i) {
     cdt::spend();
-    if (!boxes_meet(items_[i].box, b.box.box())) continue;
+    if (!boxes_meet(items_[i].box, b.box)) continue;
     for (std::uint32_t j = b.first; j < b.last; ++j)
       if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))
         return false;

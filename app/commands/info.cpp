@@ -50,15 +50,14 @@ StackSummary summarise(const std::vector<Slice>& stack) {
   for (const Slice& slice : stack) {
     heights.push_back(slice.z);
     if (slice.contours.empty()) ++summary.empty_slices;
+    add_sizes(summary.labels, slice);
     for (const Contour& contour : slice.contours) {
-      summary.labels.try_emplace(contour.label);
       for (const cdt::Point& point : contour.points) {
         summary.bounds.add({point.x, point.y, slice.z});
       }
     }
   }
   summary.size.slices = stack.size();
-  for (auto& [label, size] : summary.labels) size = size_of(stack, label);
   std::ranges::sort(heights);
   for (std::size_t i = 1; i < heights.size(); ++i) {
     summary.gaps.push_back(heights[i] - heights[i - 1]);

@@ -48,15 +48,9 @@ class Overview {
     std::ranges::move(find_unusable(slice, static_cast<std::uint32_t>(total_.slices)),
                       std::back_inserter(unusable_));
     ++total_.slices;
-    std::map<std::string, std::size_t> seen;
-    for (const Contour& contour : slice.contours) {
-      StackSize& size = labels_[contour.label];
-      if (++seen[contour.label] == 1) ++size.slices;
-      ++size.contours;
-      size.vertices += contour.points.size();
-      ++total_.contours;
-      total_.vertices += contour.points.size();
-    }
+    total_.contours += slice.contours.size();
+    for (const Contour& contour : slice.contours) total_.vertices += contour.points.size();
+    add_sizes(labels_, slice);
   }
 
   [[nodiscard]] const StackSize& total() const { return total_; }

@@ -7,7 +7,9 @@
 
 #include "cdt/predicates.h"
 #include "mesh/box_tree.h"
+#include "mesh/triangle_pairs.h"
 #include "reconstruct/clean/cleaning.h"
+#include "reconstruct/clean/outline_depths.h"
 #include "reconstruct/plane/nearest.h"
 #include "reconstruct/plane/tile_grid.h"
 
@@ -18,7 +20,8 @@ namespace {
 using cdt::Box;
 using cdt::Point;
 
-/// Finding out what encloses what may take that many steps a point.
+/// Looking at all whose boxes meet may take that many steps a point. Where long edges run side by
+/// side, or outlines are nested, there is a way that takes longer elsewhere.
 constexpr std::size_t most_steps = 64;
 
 /// A point of the plane, for trees of boxes in space.
@@ -110,13 +113,30 @@ class SimpleSlice {
       box.high = {box.high.x + nearest_, box.high.y + nearest_};
     }
     TileGrid grid(edges_.size(), [&](std::uint32_t i) { return boxes[i]; });
+    std::size_t steps_left = most_steps * edges_.size();
     for (std::uint32_t i = 0; i < edges_.size(); ++i) {
       const bool is_apart = grid.all_of_near(boxes[i], [&](std::uint32_t j) {
+        if (steps_left == 0) return false;
+        --steps_left;
         return j <= i || !boxes_meet(boxes[i], boxes[j]) || !meet(edges_[i], edges_[j]);
       });
+      if (steps_left == 0) return slanted_are_apart();
       if (!is_apart) return false;
     }
     return true;
+  }
+
+  /// The same by a tree of turned boxes.
+  [[nodiscard]] bool slanted_are_apart() const {
+    std::vector<Corners> slim;
+    std::vector<TrianglePairs::Vertices> none_common;
+    for (const Edge& e : edges_) {
+      const auto next = static_cast<std::uint32_t>(3 * slim.size());
+      slim.push_back({flat(e.from), flat(e.to), flat(e.to)});
+      none_common.push_back({next, next + 1, next + 2});
+    }
+    return TrianglePairs(slim, none_common, 3 * slim.size(), nearest_)
+        .all_of([this](std::uint32_t i, std::uint32_t j) { return !meet(edges_[i], edges_[j]); });
   }
 
   /// A simple outline turns as it does at its smallest point.
@@ -145,8 +165,7 @@ class SimpleSlice {
     return is_inside;
   }
 
-  /// Which way round each outline has the region on its left, from those that enclose it.
-  bool find_directions(Fill rule) {
+  [[nodiscard]] std::vector<OutlineDepth> find_depths() const {
     std::vector<Box3> boxes;
     boxes.reserve(outlines_.size());
     for (const Outline& outline : outlines_)
@@ -154,19 +173,33 @@ class SimpleSlice {
     const BoxTree tree(boxes);
     const std::size_t most = most_steps * edges_.size();
     std::size_t steps = 0;
-    for (std::uint32_t c = 0; c < outlines_.size(); ++c) {
-      Outline& outline = outlines_[c];
-      const Point p = points(c)[outline.smallest];
-      int depth = 0;
-      int winding = 0;
+    std::vector<OutlineDepth> depths(outlines_.size());
+    for (std::uint32_t c = 0; c < outlines_.size() && steps <= most; ++c) {
+      const Point p = points(c)[outlines_[c].smallest];
       tree.for_each_meeting({flat(p), flat(p)}, [&](std::uint32_t d) {
         if (d == c || steps > most) return;
         steps += size(d);
         if (steps > most || !encloses(d, p)) return;
-        ++depth;
-        winding += outlines_[d].turns_left ? 1 : -1;
+        ++depths[c].depth;
+        depths[c].winding += outlines_[d].turns_left ? 1 : -1;
       });
-      if (steps > most) return false;
+    }
+    return steps <= most ? depths : swept_depths();
+  }
+
+  [[nodiscard]] std::vector<OutlineDepth> swept_depths() const {
+    std::vector<SimpleOutline> simple;
+    for (std::uint32_t c = 0; c < outlines_.size(); ++c)
+      simple.push_back({points(c), outlines_[c].turns_left});
+    return outline_depths(simple);
+  }
+
+  /// Which way round each outline has the region on its left, from those that enclose it.
+  bool find_directions(Fill rule) {
+    const std::vector<OutlineDepth> depths = find_depths();
+    for (std::uint32_t c = 0; c < outlines_.size(); ++c) {
+      Outline& outline = outlines_[c];
+      const auto [depth, winding] = depths[c];
       if (rule == Fill::even_odd) {
         outline.goes_left = depth % 2 == 0;
         continue;

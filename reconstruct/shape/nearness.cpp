@@ -24,13 +24,6 @@ constexpr double least_share = 0.03;
 
 Vec3 scaled(double share, const Vec3& way) { return along({}, share, way); }
 
-bool boxes_are_near(const Box3& a, const Box3& b, double distance) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (a.low[axis] - b.high[axis] > distance || b.low[axis] - a.high[axis] > distance)
-      return false;
-  return true;
-}
-
 Box3 box(const Corners& t) { return box_around(t[0], t[1], t[2]); }
 
 }  // namespace

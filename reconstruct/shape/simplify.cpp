@@ -130,20 +130,37 @@ class Simplifier {
   /// Numbers of faces by their places, and witnesses for them. Without tolerance none are needed.
   void rank_faces() {
     if (tolerance_ == 0) return;
-    std::vector<std::pair<Corners, Face>> sorted;
+    std::vector<std::pair<Corners, Halfedge>> sorted;  // from the first corner
     for (const auto f : surface_.faces()) {
       Corners t = corners(f);
+      Halfedge first = surface_.halfedge_handle(f);
+      for (auto turns = std::ranges::min_element(t) - t.begin(); turns > 0; --turns)
+        first = surface_.next_halfedge_handle(first);
       std::rotate(t.begin(), std::ranges::min_element(t), t.end());
-      sorted.emplace_back(t, f);
+      sorted.emplace_back(t, first);
     }
-    std::ranges::sort(sorted, {}, &std::pair<Corners, Face>::first);
+    std::ranges::sort(sorted, {}, &std::pair<Corners, Halfedge>::first);
     rank_of_.assign(surface_.n_faces(), 0);
     std::vector<Corners> ranked;
-    for (const auto& [t, f] : sorted) {
-      rank_of_[index(f)] = static_cast<std::uint32_t>(ranked.size());
+    for (const auto& [t, first] : sorted) {
+      rank_of_[index(surface_.face_handle(first))] = static_cast<std::uint32_t>(ranked.size());
       ranked.push_back(t);
     }
-    witnesses_.emplace(std::move(ranked), tolerance_);
+    std::vector<Cover::Neighbours> neighbours;
+    for (const auto& [t, first] : sorted) neighbours.push_back(neighbours_of(first));
+    witnesses_.emplace(std::move(ranked), std::move(neighbours), tolerance_);
+  }
+
+  /// The ranks of the faces across the edges of a face, from one on.
+  [[nodiscard]] Cover::Neighbours neighbours_of(Halfedge first) const {
+    Cover::Neighbours result;
+    for (std::uint32_t& neighbour : result) {
+      const Halfedge outer = surface_.opposite_halfedge_handle(first);
+      neighbour =
+          surface_.is_boundary(outer) ? Cover::none : rank_of_[index(surface_.face_handle(outer))];
+      first = surface_.next_halfedge_handle(first);
+    }
+    return result;
   }
 
   /// Over the faces that are left. Its items are their places in `live_faces_`.
@@ -156,7 +173,7 @@ class Simplifier {
       live_faces_.push_back(f);
       triangles.push_back(corners(f));
     }
-    tree_ = TriangleTree(std::move(triangles));
+    tree_ = TriangleTree(triangles);
     live_count_ = live_faces_.size();
   }
 
@@ -198,7 +215,7 @@ class Simplifier {
     find_targets(v);
     for (const Target& target : targets_) {
       if (!surface_.is_collapse_ok(fan_.halfedge(target.at)) || folds(target.at) ||
-          !stays_near(target.at) || !meets_nothing(target.at) || !sweeps_nothing(target.at))
+          !has_room(target.at) || !stays_near(target))
         continue;
       apply(target);
       return true;
@@ -224,26 +241,30 @@ class Simplifier {
   }
 
   /// Whether both surfaces stay within the tolerance of each other.
-  bool stays_near(std::size_t target) {
+  bool stays_near(const Target& target) {
     if (!witnesses_) return true;
-    gone_.clear();
-    made_.clear();
-    beside_.clear();
+    auto& [gone, made, beside, is_map] = change_;
+    gone.clear();
+    made.clear();
+    beside.clear();
     for (std::size_t i = 0; i < fan_.faces(); ++i) {
       const std::uint32_t rank = rank_of_[index(fan_.face(i))];
-      gone_.push_back(rank);
-      if (!fan_.vanishes(i, target)) made_.push_back({rank, fan_.moved(i, target)});
+      gone.push_back(rank);
+      if (!fan_.vanishes(i, target.at)) made.push_back({rank, fan_.moved(i, target.at)});
       const Halfedge rim = surface_.next_halfedge_handle(fan_.halfedge(i));
       const Halfedge outer = surface_.opposite_halfedge_handle(rim);
       if (!surface_.is_boundary(outer))
-        beside_.push_back(rank_of_[index(surface_.face_handle(outer))]);
+        beside.push_back(rank_of_[index(surface_.face_handle(outer))]);
     }
-    return witnesses_->keeps_near(gone_, made_, beside_);
+    // What an open fan loses beyond its new rim has no place to be mapped to.
+    is_map = !fan_.is_open() && target.distance <= tolerance_;
+    return witnesses_->keeps_near(change_);
   }
 
-  /// Whether the new triangles are none without area and touch each other and the faces outside
-  /// the fan in common corners and edges only (exact).
-  bool meets_nothing(std::size_t target) {
+  /// Whether the new triangles are none without area and touch each other and the faces outside the
+  /// fan in common corners and edges only, and nothing is where the faces pass through on their
+  /// way, so that no part of the surface comes to be on the other side of another part (exact).
+  bool has_room(std::size_t target) {
     ++fan_number_;
     triangles_.clear();
     for (std::size_t i = 0; i < fan_.faces(); ++i) {
@@ -256,22 +277,13 @@ class Simplifier {
       for (std::size_t j = 0; j < i; ++j)
         if (triangles_meet(t, triangles_[j])) return false;
     }
-    return std::ranges::all_of(triangles_, [this](const Corners& t) {
-      return tree_.all_of_meeting(t, [&](std::uint32_t item) {
-        const Face face = live_faces_[item];
-        return in_fan_[index(face)] == fan_number_ || !triangles_meet(t, corners(face));
-      });
-    });
-  }
-
-  /// Whether nothing is where the faces pass through on their way, so that no part
-  /// of the surface comes to be on the other side of another part (exact).
-  bool sweeps_nothing(std::size_t target) {
-    std::vector<Vec3> hull{fan_.middle()};
-    for (std::size_t i = 0; i < fan_.size(); ++i) hull.push_back(fan_.place(i));
-    return tree_.all_of_meeting(hull, [&](std::uint32_t item) {
-      const Face face = live_faces_[item];
-      return in_fan_[index(face)] == fan_number_ || !fan_.sweeps(target, corners(face));
+    hull_.assign(1, fan_.middle());
+    for (std::size_t i = 0; i < fan_.size(); ++i) hull_.push_back(fan_.place(i));
+    return tree_.all_of_meeting(hull_, [&](std::uint32_t item, const Corners& other) {
+      if (in_fan_[index(live_faces_[item])] == fan_number_) return true;
+      return std::ranges::none_of(triangles_,
+                                  [&](const Corners& t) { return triangles_meet(t, other); }) &&
+             !fan_.sweeps(target, other);
     });
   }
 
@@ -290,7 +302,7 @@ class Simplifier {
       --live_count_;
     }
     surface_.collapse(fan_.halfedge(at));
-    if (witnesses_) witnesses_->replace(gone_, made_);
+    if (witnesses_) witnesses_->replace(change_);
     for (const Face face : faces_) {
       moved_[index(face)] = target.distance;
       tree_.update(item_of_[index(face)], corners(face));
@@ -320,11 +332,10 @@ class Simplifier {
   Fan fan_;
   std::vector<Target> targets_;
   std::vector<Corners> triangles_;
+  std::vector<Vec3> hull_;
   std::vector<Vertex> neighbours_;
   std::vector<Face> faces_;
-  std::vector<std::uint32_t> gone_;
-  std::vector<Witnesses::Made> made_;
-  std::vector<std::uint32_t> beside_;
+  Witnesses::Change change_;
   std::vector<std::uint32_t> in_fan_;  // of each face: the number of the last fan that it was in
   std::uint32_t fan_number_ = 0;
 };

@@ -88,7 +88,7 @@ class EdgeSplitter {
     }
     for (std::size_t i = 0; i < sides_.size(); ++i) {
       mesh_.replace(sides_[i].tile, halves_[2 * i]);
-      mesh_.add(halves_[2 * i + 1], mesh_.tile(sides_[i].tile).kind);
+      mesh_.add(halves_[2 * i + 1], sides_[i].tile);
     }
     enqueue(edge.from, node);
     enqueue(node, edge.to);

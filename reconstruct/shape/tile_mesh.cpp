@@ -34,7 +34,6 @@ void TileMesh::index_tiles() {
   build_tree();
 }
 
-/// A removed tile has two nodes left, and is no tile.
 void TileMesh::build_tree() {
   std::vector<Corners> triangles;
   triangles.reserve(tiles_.size());
@@ -42,7 +41,9 @@ void TileMesh::build_tree() {
     const auto& [a, b, c] = tile.nodes;
     triangles.push_back(places({a == Origin::none ? b : a, b, c}));
   }
-  tree_ = TriangleTree(std::move(triangles));
+  tree_ = TriangleTree(triangles);
+  for (std::uint32_t t = 0; t < tiles_.size(); ++t)
+    if (is_removed(t)) tree_.remove(t);
   most_notes_ = 2 * tiles_.size();
 }
 
@@ -106,11 +107,12 @@ bool TileMesh::meet_nothing(std::span<const Nodes> triangles, std::span<const Ed
   const auto is_replaced = [=](std::uint32_t tile) {
     return std::ranges::any_of(replaced, [=](const EdgeTile& r) { return r.tile == tile; });
   };
-  return std::ranges::all_of(corners_, [&](const Corners& corners) {
-    return tree_.all_of_meeting(corners, [&](std::uint32_t tile) {
-      return is_removed(tile) || is_replaced(tile) ||
-             !triangles_meet(corners, places(tiles_[tile].nodes));
-    });
+  hull_.clear();
+  for (const Corners& corners : corners_) hull_.insert(hull_.end(), corners.begin(), corners.end());
+  return tree_.all_of_meeting(hull_, [&](std::uint32_t tile, const Corners& other) {
+    return is_replaced(tile) || std::ranges::none_of(corners_, [&](const Corners& corners) {
+             return triangles_meet(corners, other);
+           });
   });
 }
 
@@ -133,21 +135,22 @@ void TileMesh::note_move(std::uint32_t node) {
   for (const std::uint32_t tile : tiles_at(node)) note(tile);
 }
 
-/// Tells the tree where a tile is now; boxes around where it was do no harm until there are many.
+/// Boxes around where a tile was do no harm until there are many.
 void TileMesh::note(std::uint32_t tile) {
   if (most_notes_-- == 0)
     build_tree();
-  else if (tile < tree_.size())
-    tree_.update(tile, places(tiles_[tile].nodes));
   else
-    tree_.add(places(tiles_[tile].nodes));
+    tree_.update(tile, places(tiles_[tile].nodes));
 }
 
-void TileMesh::add(const Nodes& nodes, FaceKind kind) {
+void TileMesh::add(const Nodes& nodes, std::uint32_t near) {
   const auto tile = static_cast<std::uint32_t>(tiles_.size());
-  tiles_.push_back({nodes, kind});
+  tiles_.push_back({nodes, tiles_[near].kind});
   for (const std::uint32_t node : nodes) tiles_at_[node].push_back(tile);
-  note(tile);
+  if (most_notes_-- == 0)
+    build_tree();
+  else
+    tree_.add(places(nodes), near);
 }
 
 void TileMesh::replace(std::uint32_t tile, const Nodes& nodes) {
@@ -160,6 +163,7 @@ void TileMesh::replace(std::uint32_t tile, const Nodes& nodes) {
 void TileMesh::remove(std::uint32_t tile) {
   for (const std::uint32_t node : tiles_[tile].nodes) std::erase(tiles_at_[node], tile);
   tiles_[tile].nodes[0] = Origin::none;
+  tree_.remove(tile);
 }
 
 void TileMesh::compact() {

@@ -81,7 +81,8 @@ class TileMesh {
   void move(std::uint32_t node, const Vec3& place);
   void note_move(std::uint32_t node);
 
-  void add(const Nodes& nodes, FaceKind kind);
+  /// Adds a tile of the kind of one that it is near.
+  void add(const Nodes& nodes, std::uint32_t near);
   void replace(std::uint32_t tile, const Nodes& nodes);
   /// The tile keeps its number until compact().
   void remove(std::uint32_t tile);
@@ -91,6 +92,7 @@ class TileMesh {
  private:
   void index_tiles();
   void build_tree();
+  /// Tells the tree where a tile is now.
   void note(std::uint32_t tile);
   [[nodiscard]] bool is_removed(std::uint32_t tile) const {
     return tiles_[tile].nodes[0] == Origin::none;
@@ -107,6 +109,7 @@ class TileMesh {
   TriangleTree tree_;
   std::size_t most_notes_ = 0;  // until the tree is made anew
   std::vector<Corners> corners_;
+  std::vector<Vec3> hull_;
 };
 
 }  // namespace loft

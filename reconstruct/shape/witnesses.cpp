@@ -16,36 +16,54 @@ bool contains(std::span<const std::uint32_t> numbers, std::uint32_t number) {
   return std::ranges::find(numbers, number) != numbers.end();
 }
 
+Box3 box(const Corners& t) { return box_around(t[0], t[1], t[2]); }
+
 }  // namespace
 
-Witnesses::Witnesses(std::vector<Corners> faces, double distance)
+Witnesses::Witnesses(std::vector<Corners> faces, std::vector<Cover::Neighbours> neighbours,
+                     double distance)
     : first_(std::move(faces)),
       current_(first_),
       witnesses_(first_.size()),
+      first_is_mapped_(first_.size(), true),
+      is_mapped_(first_.size(), true),
+      distance_(distance),
+      cover_(first_, std::move(neighbours), distance),
       nearness_(distance),
       gone_(first_.size(), 0) {
   for (std::uint32_t face = 0; face < first_.size(); ++face) witnesses_[face] = {face};
   witnessed_ = witnesses_;
 }
 
-bool Witnesses::keeps_near(std::span<const std::uint32_t> gone, std::span<const Made> made,
-                           std::span<const std::uint32_t> beside) {
+bool Witnesses::keeps_near(const Change& change) {
   ++change_;
-  for (const std::uint32_t face : gone) gone_[face] = change_;
-  find_affected(gone);
+  for (const std::uint32_t face : change.gone) gone_[face] = change_;
+  find_affected(change.gone);
   found_.clear();
-  return std::ranges::all_of(
-             affected_, [&](std::uint32_t face) { return finds_witnesses(face, made, beside); }) &&
-         made_is_near(made, beside);
+  is_by_map_ = change.is_map && std::ranges::all_of(change.gone, [this](std::uint32_t face) {
+                 return is_mapped_[face];
+               });
+  const auto stays_near = [&](std::uint32_t first_face) {
+    if (!is_by_map_ || !first_is_mapped_[first_face]) return finds_witnesses(first_face, change);
+    follow_map(first_face, change);
+    return true;
+  };
+  return std::ranges::all_of(affected_, stays_near) && (is_by_map_ || made_is_near(change));
 }
 
-void Witnesses::replace(std::span<const std::uint32_t> gone, std::span<const Made> made) {
-  for (const std::uint32_t face : gone) witnessed_[face].clear();
-  for (const Made& each : made) current_[each.face] = each.corners;
+void Witnesses::replace(const Change& change) {
+  for (const std::uint32_t face : change.gone) witnessed_[face].clear();
+  for (const Made& each : change.made) {
+    current_[each.face] = each.corners;
+    is_mapped_[each.face] = is_by_map_;
+  }
   for (const auto& [first_face, witness] : found_)
     if (is_gone(witness) || !contains(witnesses_[first_face], witness))
       witnessed_[witness].push_back(first_face);
-  for (const std::uint32_t face : affected_) witnesses_[face].clear();
+  for (const std::uint32_t face : affected_) {
+    witnesses_[face].clear();
+    if (!is_by_map_) first_is_mapped_[face] = false;
+  }
   for (const auto& [first_face, witness] : found_) witnesses_[first_face].push_back(witness);
 }
 
@@ -57,11 +75,19 @@ void Witnesses::find_affected(std::span<const std::uint32_t> gone) {
   make_unique(affected_);
 }
 
-bool Witnesses::finds_witnesses(std::uint32_t first_face, std::span<const Made> made,
-                                std::span<const std::uint32_t> beside) {
+void Witnesses::follow_map(std::uint32_t first_face, const Change& change) {
+  for (const std::uint32_t face : witnesses_[first_face])
+    if (!is_gone(face)) found_.emplace_back(first_face, face);
+  const Box3 around = box(first_[first_face]);
+  for (const Made& each : change.made)
+    if (boxes_are_near(around, box(each.corners), distance_))
+      found_.emplace_back(first_face, each.face);
+}
+
+bool Witnesses::finds_witnesses(std::uint32_t first_face, const Change& change) {
   choice_.clear();
   choice_corners_.clear();
-  for (const Made& each : made) {
+  for (const Made& each : change.made) {
     choice_.push_back(each.face);
     choice_corners_.push_back(each.corners);
   }
@@ -71,21 +97,23 @@ bool Witnesses::finds_witnesses(std::uint32_t first_face, std::span<const Made> 
     choice_corners_.push_back(current_[face]);
   };
   for (const std::uint32_t face : witnesses_[first_face]) offer(face);
-  for (const std::uint32_t face : beside) offer(face);
+  for (const std::uint32_t face : change.beside) offer(face);
   if (!nearness_.all_near(first_[first_face], choice_corners_)) return false;
   for (const std::uint32_t i : nearness_.used()) found_.emplace_back(first_face, choice_[i]);
   return true;
 }
 
-bool Witnesses::made_is_near(std::span<const Made> made, std::span<const std::uint32_t> beside) {
+bool Witnesses::made_is_near(const Change& change) {
   choice_ = affected_;
-  for (const std::uint32_t face : beside)
+  for (const std::uint32_t face : change.beside)
     choice_.insert(choice_.end(), witnessed_[face].begin(), witnessed_[face].end());
   make_unique(choice_);
   choice_corners_.clear();
   for (const std::uint32_t face : choice_) choice_corners_.push_back(first_[face]);
-  return std::ranges::all_of(
-      made, [this](const Made& each) { return nearness_.all_near(each.corners, choice_corners_); });
+  return std::ranges::all_of(change.made, [this](const Made& each) {
+    return cover_.covers(each.corners, choice_) ||
+           nearness_.all_near(each.corners, choice_corners_);
+  });
 }
 
 }  // namespace loft

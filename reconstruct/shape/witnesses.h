@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "mesh/predicates.h"
+#include "reconstruct/shape/cover.h"
 #include "reconstruct/shape/nearness.h"
 
 namespace loft {
@@ -20,6 +21,11 @@ namespace loft {
 /// old witnessed. So what is measured is the distance from the first surface, whatever the number
 /// of changes since.
 ///
+/// That is proven by a search, which costs as much as there are first faces around. It is not
+/// needed as long as one map after the other is known to have moved no point by more than the
+/// distance: a face that came by such changes alone is near by its map, and where each point of a
+/// first face went is one of its witnesses.
+///
 /// Faces have numbers, at first as they come; results depend on the faces' places and order.
 class Witnesses {
  public:
@@ -28,40 +34,57 @@ class Witnesses {
     Corners corners;
   };
 
-  Witnesses(std::vector<Corners> faces, double distance);
+  /// `neighbours`: of each face, as Cover asks for them.
+  Witnesses(std::vector<Corners> faces, std::vector<Cover::Neighbours> neighbours, double distance);
+  Witnesses(const Witnesses&) = delete;
+  Witnesses& operator=(const Witnesses&) = delete;
 
-  /// Whether all stays near if the faces `gone` were replaced by `made`, which take over numbers
-  /// of theirs. `beside` are faces along the rim of both.
-  [[nodiscard]] bool keeps_near(std::span<const std::uint32_t> gone, std::span<const Made> made,
-                                std::span<const std::uint32_t> beside);
+  /// Faces `gone` that are to be replaced by `made`, which take over numbers of theirs.
+  struct Change {
+    std::vector<std::uint32_t> gone;
+    std::vector<Made> made;
+    std::vector<std::uint32_t> beside;  ///< faces along the rim of both
+    /// Whether this and the changes that made `gone` are maps of the one to the other that together
+    /// have moved no point of theirs by more than the distance.
+    bool is_map = false;
+  };
 
-  /// Does what the last call of keeps_near() asked for. Precondition: it said yes.
-  void replace(std::span<const std::uint32_t> gone, std::span<const Made> made);
+  /// Whether all stays near by a change.
+  [[nodiscard]] bool keeps_near(const Change& change);
+
+  /// Makes the change that the last call of keeps_near() was asked for. Precondition: it said yes.
+  void replace(const Change& change);
 
  private:
   using Faces = std::vector<std::uint32_t>;
 
-  /// The first faces of which some of `gone_` is a witness.
+  /// The first faces of which some of `gone` is a witness.
   void find_affected(std::span<const std::uint32_t> gone);
 
-  [[nodiscard]] bool finds_witnesses(std::uint32_t first_face, std::span<const Made> made,
-                                     std::span<const std::uint32_t> beside);
+  /// Witnesses of a face without a search: those that it has and keeps, and all that is made near.
+  void follow_map(std::uint32_t first_face, const Change& change);
+
+  [[nodiscard]] bool finds_witnesses(std::uint32_t first_face, const Change& change);
 
   /// Whether all of what is made is near what it is to witness, or what the faces beside do.
-  [[nodiscard]] bool made_is_near(std::span<const Made> made,
-                                  std::span<const std::uint32_t> beside);
+  [[nodiscard]] bool made_is_near(const Change& change);
 
   [[nodiscard]] bool is_gone(std::uint32_t face) const { return gone_[face] == change_; }
 
-  std::vector<Corners> first_;    // the faces as they were
-  std::vector<Corners> current_;  // as they are
-  std::vector<Faces> witnesses_;  // of each first face
-  std::vector<Faces> witnessed_;  // by each current face; some may have found others since
+  std::vector<Corners> first_;         // the faces as they were
+  std::vector<Corners> current_;       // as they are
+  std::vector<Faces> witnesses_;       // of each first face
+  std::vector<Faces> witnessed_;       // by each current face; some may have found others since
+  std::vector<bool> first_is_mapped_;  // of each first face: its witnesses came by maps alone
+  std::vector<bool> is_mapped_;        // the same of each current face, and its corners
+  double distance_;
+  Cover cover_;  // by the faces as they were
   Nearness nearness_;
 
   // Of the change at hand.
   std::vector<std::uint32_t> gone_;  // of each face: the last change that replaces it
   std::uint32_t change_ = 0;
+  bool is_by_map_ = false;  // it needs no search for what is made
   Faces affected_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found_;  // a first face, its new witness
   Faces choice_;

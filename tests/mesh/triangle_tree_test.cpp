@@ -34,7 +34,7 @@ TEST(TriangleTree, FindsAllThatMeetWhileTrianglesComeChangeAndGo) {
     if (step % 3 == 0) {
       triangles.push_back(triangle());
       is_there.push_back(true);
-      tree.add(triangles.back());
+      tree.add(triangles.back(), number);
     } else if (is_there[number] && step % 3 == 1) {
       triangles[number] = triangle();
       tree.update(number, triangles[number]);
@@ -45,7 +45,8 @@ TEST(TriangleTree, FindsAllThatMeetWhileTrianglesComeChangeAndGo) {
     if (step % 10 != 0) continue;
     const Corners query = triangle();
     std::multiset<std::uint32_t> found;
-    EXPECT_TRUE(tree.all_of_meeting(query, [&](std::uint32_t n) {
+    EXPECT_TRUE(tree.all_of_meeting(query, [&](std::uint32_t n, const Corners& there) {
+      EXPECT_EQ(there, triangles[n]);
       found.insert(n);
       return true;
     }));
@@ -70,7 +71,7 @@ TEST(TriangleTree, TestsAFewTrianglesHoweverThinTheyAre) {
     const TriangleTree tree(triangles);
     int tested = 0;
     for (int i = 0; i < 100; ++i) {
-      EXPECT_TRUE(tree.all_of_meeting(needle(0.06 * i), [&](std::uint32_t) {
+      EXPECT_TRUE(tree.all_of_meeting(needle(0.06 * i), [&](std::uint32_t, const Corners&) {
         ++tested;
         return true;
       }));
@@ -79,13 +80,12 @@ TEST(TriangleTree, TestsAFewTrianglesHoweverThinTheyAre) {
   }
 }
 
-TEST(TriangleTree, WithoutTrianglesMeetsNothingUntilOneComes) {
-  TriangleTree tree;
+TEST(TriangleTree, WithoutTrianglesMeetsNothing) {
   const Corners one{Vec3{0, 0, 0}, Vec3{1, 0, 0}, Vec3{0, 1, 0}};
-  const auto never = [](std::uint32_t) { return false; };
-  EXPECT_TRUE(tree.all_of_meeting(one, never));
-  tree.add(one);
-  EXPECT_FALSE(tree.all_of_meeting(one, never));
+  const auto never = [](std::uint32_t, const Corners&) { return false; };
+  EXPECT_TRUE(TriangleTree().all_of_meeting(one, never));
+  EXPECT_TRUE(TriangleTree(std::vector<Corners>{}).all_of_meeting(one, never));
+  EXPECT_FALSE(TriangleTree(std::vector{one}).all_of_meeting(one, never));
 }
 
 }  // namespace

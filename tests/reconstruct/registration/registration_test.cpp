@@ -10,6 +10,7 @@
 #include <random>
 #include <vector>
 
+#include "cdt/check.h"
 #include "mesh/measure.h"
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/reconstruct.h"
@@ -118,7 +119,7 @@ TEST(Registration, AnOrderLinksRingsThatLieWithinEachOther) {
 TEST(Registration, AFilamentIsFollowedAsFarAsMaxShiftAllows) {
   std::vector<Slice> slices;
   for (int i = 0; i < 6; ++i)
-    slices.push_back({1.0 * i, {{stacks::circle({4.5 * i, 0}, 1, 12), ""}}});
+    slices.push_back({1.0 * i, {stacks::circle(12, 1, {4.5 * i, 0})}});
   EXPECT_EQ(of_solid(slices).components, 6U);
   Options options;
   options.max_shift = 6;
@@ -164,12 +165,20 @@ TEST(Registration, IsReportedAsSuch) {
   }
 }
 
+Region region_of(const Slice& slice) {
+  std::vector<ContourSource> sources;
+  for (const Contour& contour : slice.contours)
+    sources.push_back({contour.points, 0, static_cast<std::uint32_t>(sources.size())});
+  std::vector<Defect> repairs;
+  return clean(sources, slice.z, {}, repairs);
+}
+
 Region region_of(const std::vector<Point>& outline, double z = 0) {
-  return clean({z, {{outline, ""}}}, {}).region;
+  return region_of(Slice{z, {{outline, ""}}});
 }
 
 TEST(Registration, LeavesAloneWhatHasNotAsManyLoops) {
-  const Region ring = clean(frame(0, 0), {}).region;
+  const Region ring = region_of(frame(0, 0));
   const Region square = region_of({{0, 0}, {100, 0}, {100, 100}, {0, 100}}, 1);
   EXPECT_FALSE(tile_registered(ring, square, {}, any_number));
 }
@@ -201,7 +210,7 @@ TEST(Matching, FindsTheSameLoopAgainWhereverItBegins) {
 TEST(Displacement, LeavesARegionARegion) {
   std::mt19937 random(20261128);
   std::uniform_real_distribution<double> way(-8, 8);
-  const Region region = clean(frame(0, 0), {}).region;
+  const Region region = region_of(frame(0, 0));
   int moves = 0;
   for (int i = 0; i < 200; ++i) {
     SCOPED_TRACE(i);
@@ -215,7 +224,7 @@ TEST(Displacement, LeavesARegionARegion) {
     cdt::Triangulation mesh;
     insert_loops(there, mesh);
     EXPECT_EQ(mesh.vertex_count(), region.points.size());
-    EXPECT_TRUE(mesh.check().empty());
+    EXPECT_TRUE(cdt::check(mesh).empty());
     moves += made->ways()[0] != Point{};
   }
   EXPECT_GT(moves, 100);
