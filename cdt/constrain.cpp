@@ -159,8 +159,9 @@ void Triangulation::mark(EdgeId e, SegmentId s) {
   touch(triangle(e));
   touch(triangle(twin(e)));
   join(e, twin(e), sets_.with(side(e).set, Passage(s, is_upward(e))));
+  const Segment& segment = this->segment(s);
   for (const VertexId v : {from(e), to(e)})
-    if (!ends_at(s, v)) note_passed(v);
+    if (v != segment.from && v != segment.to) note_passed(v);
 }
 
 /// Notes that a segment goes through a vertex; that stays noted for as long as there is the vertex.
