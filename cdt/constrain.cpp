@@ -19,8 +19,10 @@ void Triangulation::lay(SegmentId s) {
     lay_crooked(s, segment.from);
     return;
   }
-  const bool is_clear = !(has_bends_ || has_crowds_) || (!misses_something_at(segment.from, s) &&
-                                                         !misses_something_at(segment.to, s));
+  const auto may_miss_something_at = [&](VertexId v) {
+    return (has_crowds_ || (has_bends_ && may_be_passed(v))) && misses_something_at(v, s);
+  };
+  const bool is_clear = !may_miss_something_at(segment.from) && !may_miss_something_at(segment.to);
   if (!is_clear || !lay_straight(s)) lay_through(s);
 }
 
@@ -157,6 +159,15 @@ void Triangulation::mark(EdgeId e, SegmentId s) {
   touch(triangle(e));
   touch(triangle(twin(e)));
   join(e, twin(e), sets_.with(side(e).set, Passage(s, is_upward(e))));
+  const Segment& segment = this->segment(s);
+  for (const VertexId v : {from(e), to(e)})
+    if (v != segment.from && v != segment.to) note_passed(v);
+}
+
+/// Notes that a segment goes through a vertex; that stays noted for as long as there is the vertex.
+void Triangulation::note_passed(VertexId v) {
+  if (v.index() >= passed_.size()) passed_.resize(points_.size());
+  passed_[v.index()] = 1;
 }
 
 /// What is first in the way from one vertex to another, along the line from a to b that both are
@@ -328,6 +339,7 @@ VertexId Triangulation::snap(EdgeId e, Point place, SegmentId s) {
 
 /// Moves the passages of e to the two edges that join its ends through an apex beside it.
 void Triangulation::reroute(EdgeId e, VertexId through) {
+  note_passed(through);
   if (apex(e) != through) e = twin(e);
   const bool was_upward = is_upward(e);
   const PassageSet rerouted = side(e).set;

@@ -58,9 +58,11 @@ bool Triangulation::lead_through_apex(EdgeId e) {
 /// anything hardly beside it: if so, segments may have to be laid anew at the end of the edit.
 bool Triangulation::settle_around(VertexId v) {
   const Point place = point(v);
+  const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
   bool is_crowded = false;
   const EdgeId first = edge(v);
   EdgeId e = first;
+  Spoke spoke(place, point(to(e)));
   do {
     const EdgeId around = next(e);
     const Point a = point(to(e));
@@ -69,10 +71,13 @@ bool Triangulation::settle_around(VertexId v) {
       settle_around(v);
       return false;
     }
-    if (is_crowding(a, b, place) || are_hardly_apart(place, a, crowded_rounding)) {
+    const Spoke following(place, b);
+    if (!is_clear_of_crowds(spoke, following, near) &&
+        (is_crowding(a, b, place) || are_hardly_apart(place, a, crowded_rounding))) {
       is_crowded = true;
       has_crowds_ = has_crowds_ || is_crowding_between(a, b, place);
     }
+    spoke = following;
     e = rotated(e);
   } while (e != first);
   settle_pieces();
@@ -176,12 +181,14 @@ bool Triangulation::hides_something(EdgeId e) const {
     return is_ahead(low, point(v), a, b) && is_ahead(point(v), high, a, b) &&
            rounds_to(a, b, point(v));
   };
+  const Point start = point(from(e));
+  const Point goal = point(to(e));
   for (const VertexId end : {from(e), to(e)}) {
     const EdgeId first = edge(end);
     EdgeId spoke = first;
     do {
       const VertexId v = to(spoke);
-      if (v != infinite && v != from(e) && v != to(e))
+      if (v != infinite && v != from(e) && v != to(e) && is_boxed(start, goal, point(v)))
         for (const Passage passage : passages(e))
           if (is_between(v, passage.segment())) return true;
       spoke = rotated(spoke);

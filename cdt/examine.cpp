@@ -23,6 +23,7 @@ class Persistence::Examination {
   static void of_all(Triangulation& mesh) {
     mesh.has_bends_ = true;  // for all that is known
     mesh.has_crowds_ = true;
+    mesh.passed_.assign(mesh.points_.size(), 1);
     examine_constraints(mesh);
     examine_blocks(mesh);
     examine_vertices(mesh);

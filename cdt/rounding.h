@@ -99,6 +99,25 @@ inline constexpr int most_detours = 32;
              detail::orient_bound * (std::abs(left) + std::abs(right));
 }
 
+/// From a place to another: their difference, and its length in steps along the axes.
+struct Spoke {
+  double x;
+  double y;
+  double length;
+
+  Spoke(Point from, Point to)
+      : x(to.x - from.x), y(to.y - from.y), length(std::abs(x) + std::abs(y)) {}
+};
+
+/// Whether the place that both start from is neither is_crowding() the edge between their ends nor
+/// hardly apart from these by crowded_rounding, told from fewer operations. `near`: the latter
+/// times the largest coordinate of the place. Where it says no, or there is infinity, nothing is
+/// known.
+[[nodiscard]] inline bool is_clear_of_crowds(const Spoke& a, const Spoke& b, double near) {
+  return std::abs(a.x * b.y - a.y * b.x) >
+         2.5 * near * (a.length + b.length) + 2 * detail::orient_bound * a.length * b.length;
+}
+
 /// Whether p, which is_crowding() the edge ab, does so between a and b or beside them, so that
 /// there may be vertices hardly apart from p: these are its neighbours or behind such an edge.
 [[nodiscard]] inline bool is_crowding_between(Point a, Point b, Point p) {

@@ -27,6 +27,7 @@ void Triangulation::clear() {
   points_.assign(1, Point{infinity, infinity});
   vertex_edges_.assign(1, EdgeId::none());
   uses_.assign(1, unused);
+  passed_.clear();
   constraints_.clear();
   without_length_.clear();
   segments_.clear();

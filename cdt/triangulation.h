@@ -444,6 +444,10 @@ class Triangulation {
   [[nodiscard]] VertexId snap(EdgeId e, Point place, SegmentId s);
   void reroute(EdgeId e, VertexId through);
   void mark(EdgeId e, SegmentId s);
+  void note_passed(VertexId v);
+  [[nodiscard]] bool may_be_passed(VertexId v) const {
+    return v.index() < passed_.size() && passed_[v.index()] != 0;
+  }
   void follow_corridor(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] double along(SegmentId s, VertexId v) const;
   [[nodiscard]] VertexId nearby_before(VertexId goal, VertexId at, SegmentId s,
@@ -578,6 +582,7 @@ class Triangulation {
   std::vector<VertexId> stops_;
   std::vector<VertexId> crowd_;
   std::vector<char> is_in_crowd_;
+  std::vector<char> passed_;  // by vertex: whether a segment that does not end there goes through
   std::vector<SegmentId> crowded_;
   std::vector<Point> crossings_;
   std::vector<std::pair<VertexId, VertexId>> unsettled_;  // pieces, from one end to the other

@@ -112,6 +112,7 @@ void Triangulation::free_vertex(VertexId v) {
   points_[v.index()] = point(infinite);
   vertex_edges_[v.index()] = EdgeId::none();
   uses_[v.index()] = unused;
+  if (v.index() < passed_.size()) passed_[v.index()] = 0;
   free_vertices_.push_back(v);
 }
 
@@ -277,6 +278,7 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
   Side sides[4] = {side(old[0]), side(old[1]), side(old[2]), side(old[3])};
   const PassageSet set = side(e).set;
   const bool was_upward = !set.is_empty() && is_upward(e);
+  if (!set.is_empty()) note_passed(v);
 
   // Around v, clockwise: (c, a, v), (b, c, v), (d, b, v), (a, d, v).
   const VertexId starts[4] = {c, b, d, a};
@@ -324,6 +326,7 @@ void Triangulation::fan_out(VertexId v) {
   TriangleId t = triangle(edge(v));
   const VertexId first = from(edge(t, 0));
   const Point place = point(v);
+  const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
   const bool has_segments = !segments_.empty();
   bool is_surrounded = false;
   for (;;) {
@@ -338,10 +341,16 @@ void Triangulation::fan_out(VertexId v) {
         continue;
       }
     }
-    if (!is_surrounded)  // settle_around() looks at all of them
-      is_surrounded = has_segments
-                          ? is_crowding(point(from(e)), point(edges_[e.index() + 1].from), place)
-                          : are_hardly_apart(place, point(from(e)), crowded_rounding);
+    if (!is_surrounded) {  // settle_around() looks at all of them
+      const Point a = point(from(e));
+      if (!has_segments) {
+        is_surrounded = are_hardly_apart(place, a, crowded_rounding);
+      } else {
+        const Point b = point(edges_[e.index() + 1].from);
+        is_surrounded =
+            !is_clear_of_crowds({place, a}, {place, b}, near) && is_crowding(a, b, place);
+      }
+    }
     t = triangle(twin(edge(t, 1)));
     if (from(edge(t, 0)) == first) break;
   }
