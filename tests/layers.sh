@@ -20,7 +20,8 @@ moved         reconstruct/{check,measure,mesh}                                  
 plane         reconstruct/plane/*            values
 clean         reconstruct/clean/*            plane
 tile          reconstruct/tile/*             clean
-link          reconstruct/link/*             tile
+registration  reconstruct/registration/*     tile
+link          reconstruct/link/*             registration
 sew           reconstruct/sew/*              tile
 shape         reconstruct/shape/*            link sew
 live          reconstruct/live/*             shape

@@ -82,9 +82,9 @@ struct SkippedLabel {
 ///
 /// A slab, from low to high: slices [lower, upper], z [lower, upper], sheet_area, wall_area,
 /// overlap, shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth,
-/// death), of (part or cavity), rule (overlap, slide, predicted, nearest, order; null for what
-/// begins or ends as nothing overlaps it), lower and upper: contours (a list of [slice, contour])
-/// and place [x, y] (null if there are none); shift, overlap, confidence.
+/// death), of (part or cavity), rule (overlap, slide, predicted, nearest, order, registered; null
+/// for what begins or ends as nothing overlaps it), lower and upper: contours (a list of [slice,
+/// contour]) and place [x, y] (null if there are none); shift, overlap, confidence.
 /// reconstruct/link/link_report.h says what the numbers mean, reconstruct/link/pieces.h the rules.
 ///
 /// Lengths in the unit of the input. Later versions of the schema may add keys.

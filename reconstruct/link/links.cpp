@@ -22,6 +22,9 @@ using cdt::Point;
 /// or 0.9 for the latter, some lost.
 constexpr double enough_overlap = 0.6;
 constexpr double most_left = 0.7;
+/// Torn pieces that overlap less than that are moved as their outlines match. Where they overlap
+/// more, a window is likely to be there.
+constexpr double torn_overlap = 0.15;
 /// Offsets below that share of a radius are not looked into.
 constexpr double least_slide = 0.125;
 /// Parts that were moved over each other must overlap that much.
@@ -113,7 +116,8 @@ std::optional<Moved> move_registered(const Region& lower, const Region& upper, c
   std::optional<Registered> best;
   for (const Point start : {Point{}, Point{-away.x, -away.y}}) {
     auto made = tile_registered(below.region(), above.region(), start, most_pairs);
-    if (made && (!best || made->difference < best->difference)) best = std::move(made);
+    if (made && (!best || made->difference < (1 - rounding_of_reach) * best->difference))
+      best = std::move(made);
   }
   if (!best) return {};
   Moved moved{{}, piece, best->difference};
@@ -152,10 +156,23 @@ std::vector<long> twice_euler(const Region& lower, const Region& upper, const Ti
   return sums;
 }
 
-/// Whether a piece has as many outlines and as many holes in both slices.
+/// Whether a piece has one outline in both slices, and as many holes.
 bool is_alike(const Piece& piece) {
-  return !piece.is_end() && piece.lower.parts == piece.upper.parts &&
+  return piece.lower.parts == 1 && piece.upper.parts == 1 &&
          piece.lower.loops.size() == piece.upper.loops.size();
+}
+
+/// Whether no edge of a piece has more than two tiles: it does where the slices touch, and seems to
+/// have handles there until it is taken apart.
+bool is_plain_surface(const TileSet& tiles, const Pieces& pieces, std::uint32_t piece) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
+  for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
+    if (pieces.of_tile[t] != piece) continue;
+    const auto& nodes = tiles.tiles[t].nodes;
+    for (unsigned i = 0; i < 3; ++i) edges.emplace_back(nodes[i], nodes[(i + 1) % 3]);
+  }
+  std::ranges::sort(edges);
+  return std::ranges::adjacent_find(edges) == edges.end();
 }
 
 /// Moves pieces as their outlines match, where overlay alone has torn them: each outline goes on as
@@ -174,7 +191,8 @@ void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
   const std::vector<double> before = differences(lower, upper, tiles, pieces);
   std::vector<Replacement> replacements;
   for (const std::uint32_t i : torn) {
-    if (overlap(pieces.pieces[i], before[i]) >= enough_overlap) continue;
+    if (overlap(pieces.pieces[i], before[i]) >= torn_overlap) continue;
+    if (!is_plain_surface(tiles, pieces, i)) continue;
     auto moved = move_registered(lower, upper, pieces.pieces[i]);
     if (!moved || moved->difference > most_left * before[i]) continue;
     if (length(moved->piece.shift) > max_shift.value_or(length(moved->piece.shift))) continue;

@@ -59,13 +59,13 @@ struct EndLink {
 /// Where the slab below or above tells how a part moves (it was, or will be, a piece of one part in
 /// each slice, or the nearest match of two ends there), the part's place is predicted from there;
 /// predictions of both sides must agree with where the parts are within half the sum of their
-/// radii plus a quarter of the shift; the shift is at most 4 times the sum. Where nothing is known
-/// of either, as at the first and last slice and beside forks, the shift is at most twice the sum;
-/// parts that are alone in the slab beside, too, are then no match. Areas differ by a factor of 2
-/// at most. A part that shrinks as fast as a round end would is not linked: a paraboloid's area is
-/// in proportion to the distance from its top, which lies somewhere in the slab. Of the possible
-/// pairs those with the least error (distance, and ratio of areas) are taken, each end once; equal
-/// ones by place. A function of the slab's two slices and one on either side.
+/// radii plus a quarter of the shift; the shift is at most `max_shift`, or 4 times the sum. Where
+/// nothing is known of either, as at the first and last slice and beside forks, the shift is at
+/// most twice the sum; parts that are alone in the slab beside, too, are then no match. Areas
+/// differ by a factor of 2 at most. A part that shrinks as fast as a round end would is not linked:
+/// a paraboloid's area is in proportion to the distance from its top, which lies somewhere in the
+/// slab. Of the possible pairs those with the least error (distance, and ratio of areas) are taken,
+/// each end once; equal ones by place. A function of the slab's two slices and one on either side.
 [[nodiscard]] std::vector<EndLink> match_ends(const SlabPieces& below, const SlabPieces& slab,
                                               const SlabPieces& above,
                                               std::optional<double> max_shift,

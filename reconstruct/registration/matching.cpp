@@ -11,6 +11,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Sums that differ by no more than that share are the same but for rounding: then what comes first
+/// is taken, so that it does not depend on how the loops are turned.
+constexpr double rounding = 1e-9;
+
+bool is_less(double a, double b) { return a < b - rounding * a; }
+
 struct Costs {
   double direction_weight;
   double pace_weight;
@@ -88,11 +94,11 @@ class Course {
       double best = i == 0 && j == 0 ? 2 * cost : infinity;
       Step step = Step::both;
       if (i > 0 && j > 0 && before_[j - 1] + 2 * cost < best) best = before_[j - 1] + 2 * cost;
-      if (i > 0 && before_[j] + cost + costs_.pace_weight < best) {
+      if (i > 0 && is_less(before_[j] + cost + costs_.pace_weight, best)) {
         best = before_[j] + cost + costs_.pace_weight;
         step = Step::lower;
       }
-      if (left + cost + costs_.pace_weight < best) {
+      if (is_less(left + cost + costs_.pace_weight, best)) {
         best = left + cost + costs_.pace_weight;
         step = Step::upper;
       }
@@ -156,7 +162,10 @@ std::vector<Match> from_cheapest(std::vector<Match> course, const Sample& lower,
   const auto cost = [&](const Match& match) {
     return costs(lower.stretches[match.lower], upper.stretches[match.upper]);
   };
-  std::ranges::rotate(course, std::ranges::min_element(course, {}, cost));
+  const double least = cost(*std::ranges::min_element(course, {}, cost));
+  const double same = least + rounding * (least + costs.direction_weight);
+  std::ranges::rotate(course, std::ranges::find_if(
+                                  course, [&](const Match& match) { return cost(match) <= same; }));
   return course;
 }
 
@@ -222,7 +231,7 @@ std::vector<Match> match_outlines(std::span<const Stretch> lower, std::span<cons
   std::vector<Match> best;
   for (std::size_t start = 0; start < columns; ++start) {
     const double cost = rough.find(0, start, all);
-    if (!(cost < least)) continue;
+    if (!is_less(cost, least)) continue;
     least = cost;
     best = rough.pairs();
   }

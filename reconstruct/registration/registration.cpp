@@ -130,8 +130,8 @@ class Registration {
  private:
   void sample(std::span<const LoopPair> pairs) {
     const double length = std::max(perimeter(lower_), perimeter(upper_));
-    const auto places =
-        static_cast<std::size_t>(std::clamp(length / thickness_, fewest_places, most_places));
+    const auto places = static_cast<std::size_t>(
+        std::clamp(length / thickness_ + 1e-6, fewest_places, most_places));
     for (const LoopPair& pair : pairs)
       outlines_.push_back({stretches(lower_, pair.lower, stretches_of_place * places),
                            stretches(upper_, pair.upper, stretches_of_place * places)});
