@@ -133,7 +133,7 @@ std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const S
   std::vector<Shape> shapes(pieces.pieces.size());
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
-    if (piece.is_tip()) continue;  // a point or a line tells where it ends
+    if (piece.is_tip()) continue;               // a point or a line tells where it ends
     if (piece.registered_difference) continue;  // it goes its own way, which no vertical line tells
     if (!piece.is_end()) {
       shapes[i] = SmoothPassage(slices, {-piece.shift.x, -piece.shift.y});
