@@ -333,12 +333,7 @@ class Ordering {
       group.shift = shift;
       return embed(std::move(*tiles));
     }
-    Piece piece;
-    piece.lower.loops = group.lower;
-    piece.upper.loops = group.upper;
-    measure(lower_, piece.lower);
-    measure(upper_, piece.upper);
-    if (auto made = move_registered(lower_, upper_, piece)) {
+    if (auto made = move_registered(lower_, upper_, whole(group))) {
       group.shift = made->piece.shift;
       return std::move(made->tiles);
     }
@@ -348,12 +343,17 @@ class Ordering {
   /// What to try: parts that an order has joined, over each other; then as they are.
   [[nodiscard]] std::vector<cdt::Point> shifts(const Group& group) const {
     if (!group.is_ordered) return {{}};
+    return {offset(whole(group)), {}};
+  }
+
+  /// A group as one piece.
+  [[nodiscard]] Piece whole(const Group& group) const {
     Piece piece;
     piece.lower.loops = group.lower;
     piece.upper.loops = group.upper;
     measure(lower_, piece.lower);
     measure(upper_, piece.upper);
-    return {offset(piece), {}};
+    return piece;
   }
 
   /// Whether all outer loops are joined.

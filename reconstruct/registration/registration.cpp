@@ -71,10 +71,10 @@ struct Partner {
   std::uint32_t other;
 };
 
-/// What pulls the stretches of one loop towards their partners, by a share of the way. Where many
+/// What pulls the stretches of one loop half way towards their partners. Where many
 /// have one partner in common, as what is in one slice only, they are not sure of it.
 void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
-               std::span<const Partner> partners, double share, std::vector<Pull>& pulls) {
+               std::span<const Partner> partners, std::vector<Pull>& pulls) {
   std::vector<double> crowd(other.size());
   for (const Partner& pair : partners) ++crowd[pair.other];
   struct Sum {
@@ -93,7 +93,7 @@ void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
   for (std::size_t i = 0; i < own.size(); ++i) {
     const auto& [place, count, sureness] = sums[i];
     const Point way{place.x / count - own[i].middle.x, place.y / count - own[i].middle.y};
-    pulls.push_back({own[i], {share * way.x, share * way.y}, own[i].length * sureness});
+    pulls.push_back({own[i], {0.5 * way.x, 0.5 * way.y}, own[i].length * sureness});
   }
 }
 
@@ -150,7 +150,6 @@ class Registration {
   void pull() {
     lower_pulls_.clear();
     upper_pulls_.clear();
-    std::vector<Pull> back;
     for (const auto& [lower, upper, matches] : outlines_) {
       std::vector<Partner> from_lower;
       std::vector<Partner> from_upper;
@@ -158,10 +157,11 @@ class Registration {
         from_lower.push_back({match.lower, match.upper});
         from_upper.push_back({match.upper, match.lower});
       }
-      add_pulls(lower, upper, from_lower, 0.5, lower_pulls_);
-      add_pulls(upper, lower, from_upper, 0.5, upper_pulls_);
-      add_pulls(upper, lower, from_upper, 1, back);
+      add_pulls(lower, upper, from_lower, lower_pulls_);
+      add_pulls(upper, lower, from_upper, upper_pulls_);
     }
+    std::vector<Pull> back = upper_pulls_;
+    for (Pull& pull : back) pull.way = {2 * pull.way.x, 2 * pull.way.y};
     back_ = fit_affine(back);
   }
 
@@ -190,7 +190,6 @@ std::optional<Registered> tile_registered(const Region& lower, const Region& upp
   const double difference = frame.covered(*tiles);
   frame.put_back(*tiles);
   collapse_crossings(lower, upper, *tiles, true, most_drift * thickness);
-  tiles->is_plain = false;
   std::size_t pairs_left = most_pairs;
   if (tiles_meet(lower, upper, *tiles, pairs_left)) return {};
   return Registered{std::move(*tiles), difference, registration.motion()};
