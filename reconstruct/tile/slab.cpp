@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <utility>
 
 #include "cdt/predicates.h"
@@ -73,22 +74,26 @@ bool Slab::is_near_apex(cdt::EdgeId e, double contact) const {
   });
 }
 
-std::optional<Slab> Slab::merged(const Region& lower, const Region& upper, cdt::Point shift,
-                                 double contact) {
-  Slab slab(lower, upper, shift, cdt::Triangulation(contact));
-  if (!slab.keeps_vertices(Level::lower) || !slab.keeps_vertices(Level::upper)) return {};
-  return slab;
+Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift,
+           std::array<LoopPaths, 2> paths)
+    : lower_(lower), upper_(upper), shift_(shift), paths_(std::move(paths)) {
+  for (const LoopPaths& loops : paths_) {
+    const std::span points(loops.points);
+    for (std::size_t i = 0; i + 1 < loops.loop_starts.size(); ++i)
+      overlay_.insert(
+          points.subspan(loops.loop_starts[i], loops.loop_starts[i + 1] - loops.loop_starts[i]),
+          cdt::closed);
+  }
+  note_vertices(Level::lower);
+  note_vertices(Level::upper);
+  refresh();
 }
 
-/// Whether each contour vertex of a slice is an overlay vertex of its own.
-bool Slab::keeps_vertices(Level level) const {
-  const auto& loop_vertices = region(level).loop_vertices;
-  const std::size_t first = level == Level::lower ? 0 : lower_.loop_vertices.size();
-  for (std::size_t i = 0; i < loop_vertices.size(); ++i) {
-    const auto& segment = overlay_.segment(cdt::SegmentId(static_cast<std::uint32_t>(first + i)));
-    if (segment.from == segment.to || index(segment.from, level) != loop_vertices[i]) return false;
-  }
-  return true;
+std::optional<Slab> Slab::merged(const Region& lower, const Region& upper, cdt::Point shift,
+                                 double contact) {
+  auto paths = meet_exactly(lower, upper, shift, contact);
+  if (!paths) return {};
+  return Slab(lower, upper, shift, std::move(*paths));
 }
 
 Vec3 Slab::place(cdt::VertexId v, double z) const {
@@ -164,11 +169,8 @@ void Slab::note_vertices(Level level) {
   const auto& loop_vertices = region(level).loop_vertices;
   auto& indices = level == Level::lower ? lower_index_ : upper_index_;
   indices.assign(overlay_.vertex_bound(), Origin::none);
-  const std::size_t first = level == Level::lower ? 0 : lower_.loop_vertices.size();
-  for (std::size_t i = 0; i < loop_vertices.size(); ++i) {
-    const auto& segment = overlay_.segment(cdt::SegmentId(static_cast<std::uint32_t>(first + i)));
-    indices[segment.from.index()] = loop_vertices[i];
-  }
+  for (std::uint32_t i = 0; i < loop_vertices.size(); ++i)
+    indices[overlay_.segment(segments(level, i)[0]).from.index()] = loop_vertices[i];
 }
 
 void Slab::refresh() {

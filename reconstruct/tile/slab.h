@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "cdt/triangulation.h"
 #include "mesh/mesh.h"
 #include "reconstruct/clean/region.h"
+#include "reconstruct/tile/contacts.h"
 
 namespace loft {
 
@@ -37,7 +39,7 @@ class Slab {
   [[nodiscard]] bool has_near_contact(double contact) const;
   /// The slab with an overlay in which such vertices are one and such edges go through them, as if
   /// they met exactly; the tiles have to be tested. None if that would make vertices of one slice
-  /// one.
+  /// one. See meet_exactly().
   [[nodiscard]] static std::optional<Slab> merged(const Region& lower, const Region& upper,
                                                   cdt::Point shift, double contact);
 
@@ -79,7 +81,16 @@ class Slab {
   [[nodiscard]] bool is_contour(cdt::EdgeId e, Level level) const;
   /// Which slice a segment of the overlay is an edge of.
   [[nodiscard]] Level level(cdt::SegmentId s) const {
-    return s.index() < lower_.loop_vertices.size() ? Level::lower : Level::upper;
+    return s.index() < first_segment(Level::upper) ? Level::lower : Level::upper;
+  }
+  /// The segments of a slice's contour edge `i`, in the order of `loop_vertices`, are from the
+  /// first to before the last of these: one, but where it is led through vertices of the other
+  /// slice.
+  [[nodiscard]] std::array<cdt::SegmentId, 2> segments(Level level, std::uint32_t i) const {
+    const auto& starts = paths_[static_cast<unsigned>(level)].side_starts;
+    const std::uint32_t first = first_segment(level);
+    if (starts.empty()) return {cdt::SegmentId(first + i), cdt::SegmentId(first + i + 1)};
+    return {cdt::SegmentId(first + starts[i]), cdt::SegmentId(first + starts[i + 1])};
   }
   /// The index of an overlay vertex among the points of a slice's region; Origin::none if it is
   /// none of them.
@@ -105,8 +116,14 @@ class Slab {
   [[nodiscard]] cdt::Triangulation release() { return std::move(overlay_); }
 
  private:
+  Slab(const Region& lower, const Region& upper, cdt::Point shift, std::array<LoopPaths, 2> paths);
+
+  [[nodiscard]] std::uint32_t first_segment(Level level) const {
+    if (level == Level::lower) return 0;
+    return static_cast<std::uint32_t>(paths_[0].points.empty() ? lower_.loop_vertices.size()
+                                                               : paths_[0].points.size());
+  }
   void note_vertices(Level level);
-  [[nodiscard]] bool keeps_vertices(Level level) const;
   [[nodiscard]] bool is_bent(cdt::EdgeId e) const;
   [[nodiscard]] bool is_short_between_slices(cdt::EdgeId e, double contact) const;
   [[nodiscard]] bool is_near_apex(cdt::EdgeId e, double contact) const;
@@ -116,6 +133,7 @@ class Slab {
   const Region& upper_;
   cdt::Point shift_;
   cdt::Triangulation overlay_;
+  std::array<LoopPaths, 2> paths_;  // empty: the loops as they are
   std::vector<Side> sides_;
   std::vector<std::uint32_t> lower_index_;
   std::vector<std::uint32_t> upper_index_;

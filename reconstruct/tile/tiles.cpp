@@ -34,7 +34,9 @@ class Tiling {
     tiles_.inner = lift_.inner();
     tiles_.tiles.reserve(mesh_.triangle_bound());
     add_sheets();
-    for (std::uint32_t s = 0; s < mesh_.segment_bound(); ++s) add_wall(SegmentId(s));
+    for (const Level level : {Level::lower, Level::upper})
+      for (std::uint32_t i = 0; i < slab_.region(level).loop_vertices.size(); ++i)
+        add_wall(level, i);
     return std::move(tiles_);
   }
 
@@ -60,12 +62,13 @@ class Tiling {
 
   /// The vertical polygon between a contour edge in its slice and the sheets beside its pieces.
   /// It looks away from the side on which its own slice is inside.
-  void add_wall(SegmentId s) {
-    const Level level = slab_.level(s);
-    const cdt::Segment& segment = mesh_.segment(s);
-    const std::uint32_t from = lift_.node(slab_.index(segment.from, level), level);
-    const std::uint32_t to = lift_.node(slab_.index(segment.to, level), level);
-    find_roof(s, level);
+  void add_wall(Level level, std::uint32_t edge) {
+    const auto [first, end] = slab_.segments(level, edge);
+    const SegmentId last(end.index() - 1);
+    const std::uint32_t from = lift_.node(slab_.index(mesh_.segment(first).from, level), level);
+    const std::uint32_t to = lift_.node(slab_.index(mesh_.segment(last).to, level), level);
+    roof_.clear();
+    for (std::uint32_t s = first.index(); s < end.index(); ++s) add_roof(SegmentId(s), level);
     if (roof_.size() == 2 && roof_.front() == from && roof_.back() == to) return;
 
     polygon_.clear();
@@ -81,9 +84,8 @@ class Tiling {
     if (polygon_.size() >= 3) fill_upright(place(from), place(to));
   }
 
-  /// The nodes above or below a contour edge, from its start to its end.
-  void find_roof(SegmentId s, Level level) {
-    roof_.clear();
+  /// The nodes above or below a contour edge's segment, from its start to its end.
+  void add_roof(SegmentId s, Level level) {
     const cdt::Segment& segment = mesh_.segment(s);
     const auto whole = mesh_.find_edge(segment.from, segment.to);
     const auto is_s = [&](cdt::Passage passage) { return passage.segment() == s; };
