@@ -48,17 +48,13 @@ class PartFinder {
       if (is_inside(Triangulation::edge(TriangleId(t)), level)) fill(TriangleId(t), level, count++);
     }
     const Region& region = slab_.region(level);
-    const std::size_t first = level == Level::lower ? 0 : slab_.lower().loop_vertices.size();
     part_of_loop.assign(region.loop_count(), none);
     for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
       const EdgeId e(i);
       if (!mesh_.is_triangle(Triangulation::triangle(e)) || !is_inside(e, level)) continue;
       for (const cdt::Passage passage : mesh_.passages(e)) {
-        const std::size_t segment = passage.segment().index();
         if (slab_.level(passage.segment()) != level) continue;
-        const auto loop = std::ranges::upper_bound(region.loop_starts, segment - first) -
-                          region.loop_starts.begin() - 1;
-        part_of_loop[static_cast<std::size_t>(loop)] = label_[Triangulation::triangle(e).index()];
+        part_of_loop[slab_.loop(passage.segment())] = label_[Triangulation::triangle(e).index()];
       }
     }
     return count;

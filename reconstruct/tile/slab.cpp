@@ -96,6 +96,14 @@ std::optional<Slab> Slab::merged(const Region& lower, const Region& upper, cdt::
   return Slab(lower, upper, shift, std::move(*paths));
 }
 
+std::size_t Slab::loop(cdt::SegmentId s) const {
+  const Level level = this->level(s);
+  const auto& led = paths_[static_cast<unsigned>(level)].loop_starts;
+  const auto& starts = led.empty() ? region(level).loop_starts : led;
+  const auto behind = std::ranges::upper_bound(starts, s.index() - first_segment(level));
+  return static_cast<std::size_t>(behind - starts.begin() - 1);
+}
+
 Vec3 Slab::place(cdt::VertexId v, double z) const {
   const double share = (z - lower_.z) / height();
   const cdt::Point p = overlay_.point(v);

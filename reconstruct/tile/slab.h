@@ -83,6 +83,8 @@ class Slab {
   [[nodiscard]] Level level(cdt::SegmentId s) const {
     return s.index() < first_segment(Level::upper) ? Level::lower : Level::upper;
   }
+  /// The loop of its slice's region that a segment of the overlay is of.
+  [[nodiscard]] std::size_t loop(cdt::SegmentId s) const;
   /// The segments of a slice's contour edge `i`, in the order of `loop_vertices`, are from the
   /// first to before the last of these: one, but where it is led through vertices of the other
   /// slice.
