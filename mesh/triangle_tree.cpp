@@ -22,9 +22,11 @@ struct Extent {
   [[nodiscard]] double twice() const { return low + high; }
 };
 
-Extent extent(const Corners& t, const Vec3& axis) {
-  const auto [low, high] = std::minmax({dot(axis, t[0]), dot(axis, t[1]), dot(axis, t[2])});
-  return {low, high};
+inline Extent extent(const Corners& t, const Vec3& axis) {
+  const double a = dot(axis, t[0]);
+  const double b = dot(axis, t[1]);
+  const double c = dot(axis, t[2]);
+  return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
 }
 
 }  // namespace
@@ -35,13 +37,18 @@ class TriangleTree::Builder {
   static constexpr double rounding = 0x1p-20;
   /// A triangle is large that is longer than both.
   static constexpr double times_median = 4;
-  static constexpr double share_of_spread = 0.5;
+  static constexpr double share_of_box = 0.5;
+  /// Of so few that is not looked at.
+  static constexpr std::size_t few = most_size + 1;
 
  public:
   Builder(TriangleTree& tree, std::span<const std::uint32_t> numbers,
           std::span<const Corners> triangles)
       : tree_(tree), numbers_(numbers), triangles_(triangles), order_(numbers.size()) {
-    for (const Corners& t : triangles) lies_.push_back(lie_of(t));
+    for (const Corners& t : triangles) {
+      lies_.push_back(lie_of(t));
+      sizes_.push_back(size(box_around(t[0], t[1], t[2])));
+    }
     std::iota(order_.begin(), order_.end(), 0U);
   }
 
@@ -57,7 +64,7 @@ class TriangleTree::Builder {
       fill(node, some);
       return;
     }
-    const std::size_t apart = is_sorted ? 0 : put_large_first(some);
+    const std::size_t apart = is_sorted || some.size() <= few ? 0 : put_large_first(node, some);
     const std::size_t half = apart > 0 ? apart : halve(node, some);
     const auto first = static_cast<std::uint32_t>(tree_.nodes_.size());
     tree_.nodes_.resize(tree_.nodes_.size() + 2);
@@ -108,24 +115,17 @@ class TriangleTree::Builder {
     tree_.turned_[place] = turned;
   }
 
-  /// Puts those first that are much larger than most, and than what most are spread out over: among
-  /// the others they would make every box that they are in as large as they are. How many they are.
-  std::size_t put_large_first(std::span<std::uint32_t> some) {
-    Box3 middles = no_box;
-    sizes_.clear();
-    for (const std::uint32_t i : some) {
-      const auto& [a, b, c] = triangles_[i];
-      const Box3 box = box_around(a, b, c);
-      middles = extended(middles, along(box.low, 1, box.high));
-      sizes_.push_back(size(box));
-    }
-    const auto median = sizes_.begin() + static_cast<std::ptrdiff_t>(sizes_.size() / 2);
-    std::ranges::nth_element(sizes_, median);
-    const double most = std::max(times_median * *median, share_of_spread * size(middles) / 2);
-    const auto others = std::ranges::partition(some, [&](std::uint32_t i) {
-      const auto& [a, b, c] = triangles_[i];
-      return size(box_around(a, b, c)) > most;
-    });
+  /// Puts those first that are much larger than most, and as large as the box by far: among the
+  /// others they would make every box that they are in as large as they are. How many they are.
+  std::size_t put_large_first(std::uint32_t node, std::span<std::uint32_t> some) {
+    some_sizes_.clear();
+    for (const std::uint32_t i : some) some_sizes_.push_back(sizes_[i]);
+    const auto median = some_sizes_.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+    std::ranges::nth_element(some_sizes_, median);
+    const double most =
+        std::max(times_median * *median, share_of_box * size(tree_.nodes_[node].box));
+    const auto others =
+        std::ranges::partition(some, [&](std::uint32_t i) { return sizes_[i] > most; });
     return some.size() - others.size();
   }
 
@@ -151,26 +151,26 @@ class TriangleTree::Builder {
   [[nodiscard]] Vec3 best_axis(std::uint32_t node, std::span<const std::uint32_t> some) const {
     const std::uint32_t turned = tree_.nodes_[node].turned;
     const auto& axes = turned == none ? frame_of_axes : tree_.turned_[turned].axes();
-    std::array<double, 3> spreads;
-    std::array<double, 3> widths{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      double low = std::numeric_limits<double>::infinity();
-      double high = -low;
-      for (const std::uint32_t i : some) {
+    Box3 middles = no_box;
+    Vec3 widths{};
+    for (const std::uint32_t i : some) {
+      Vec3 middle;
+      for (std::size_t axis = 0; axis < 3; ++axis) {
         const Extent e = extent(triangles_[i], axes[axis]);
-        low = std::min(low, e.twice());
-        high = std::max(high, e.twice());
+        middle[axis] = e.twice();
         widths[axis] += e.high - e.low;
       }
-      spreads[axis] = (high - low) / 2;
+      middles = extended(middles, middle);
     }
     if (turned == none) widths = {1, 1, 1};
     const double least = rounding * *std::ranges::max_element(widths);
+    const auto is_better = [&](std::size_t a, std::size_t b) {
+      const Vec3 spreads = minus(middles.high, middles.low);
+      return spreads[a] * std::max(widths[b], least) > spreads[b] * std::max(widths[a], least);
+    };
     std::size_t best = 0;
     for (std::size_t axis = 1; axis < 3; ++axis)
-      if (spreads[axis] * std::max(widths[best], least) >
-          spreads[best] * std::max(widths[axis], least))
-        best = axis;
+      if (is_better(axis, best)) best = axis;
     return axes[best];
   }
 
@@ -189,7 +189,8 @@ class TriangleTree::Builder {
   std::vector<Lie> lies_;             // of each triangle
   std::vector<std::uint32_t> order_;  // of the triangles
   std::vector<Key> keys_;             // of those at hand
-  std::vector<double> sizes_;         // of those at hand
+  std::vector<double> sizes_;         // of each triangle
+  std::vector<double> some_sizes_;    // of those at hand
 };
 
 TriangleTree::TriangleTree(std::span<const Corners> triangles) : node_of_(triangles.size()) {
