@@ -10,8 +10,6 @@ namespace loft {
 
 namespace {
 
-constexpr std::array<Vec3, 3> frame_of_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
 /// In its length: a triangle of less height is thin.
 constexpr double thin = 0.25;
 /// In lengths of what it holds: a larger box need not be turned, as what asks for it is no larger.

@@ -4,12 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <span>
+#include <string>
 
 #include "mesh/box3.h"
 #include "mesh/predicates.h"
 
 namespace loft {
+
+inline constexpr std::array<Vec3, 3> frame_of_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 
 /// How a long thin triangle lies: unit vectors along its longest edge and across its face, and how
 /// long it is. All 0 of others, which boxes along the axes are good enough for.
@@ -52,12 +56,26 @@ class TurnedBox {
     for (double& x : high_) x += reach;
   }
 
+  /// Unit vectors at right angles.
+  [[nodiscard]] const std::array<Vec3, 3>& axes() const { return axes_; }
+
   /// Whether an axis of it shows that it is apart from a box along the axes, or from a turned one.
   /// `around`, `other`: boxes along the axes around what it, and the other one, holds.
   [[nodiscard]] bool is_apart(const Box3& around, const Box3& other) const;
   [[nodiscard]] bool is_apart(const Box3& around, const TurnedBox& turned, const Box3& other) const;
   /// The same of a triangle.
   [[nodiscard]] bool is_apart(const Box3& around, const Corners& triangle, const Box3& other) const;
+
+  std::string show() const {
+    std::string r;
+    char b[200];
+    for (int i = 0; i < 3; ++i) {
+      snprintf(b, 200, "(%.3f %.3f %.3f)*%.4f ", axes_[i][0], axes_[i][1], axes_[i][2],
+               high_[i] - low_[i]);
+      r += b;
+    }
+    return r;
+  }
 
  private:
   std::array<Vec3, 3> axes_{};  // unit vectors at right angles

@@ -2,13 +2,13 @@
 #include "reconstruct/link/links.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
 #include "mesh/box_tree.h"
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/replace.h"
-#include "reconstruct/registration/registration.h"
 
 namespace loft {
 
@@ -105,27 +105,22 @@ double overlap(const Piece& piece, double difference) {
   return sum > 0 ? std::max(0.0, (sum - difference) / (sum + difference)) : 0;
 }
 
-/// A piece moved as its outlines match, from where it is or from over each other, whichever leaves
-/// less of a difference.
-std::optional<Moved> move_registered(const Region& lower, const Region& upper, const Piece& piece) {
+std::optional<Moved> move_registered(const Region& lower, const Region& upper, const Piece& piece,
+                                     const IsWanted& is_wanted) {
   const Extract below(lower, piece.lower.loops, piece.is_solid);
   const Extract above(upper, piece.upper.loops, piece.is_solid);
   const std::size_t most_pairs = least_pairs + most_pairs_of_point * (below.region().points.size() +
                                                                       above.region().points.size());
   const Point away = offset(piece);
-  std::optional<Registered> best;
-  for (const Point start : {Point{}, Point{-away.x, -away.y}}) {
-    auto made = tile_registered(below.region(), above.region(), start, most_pairs);
-    if (made && (!best || made->difference < (1 - rounding_of_reach) * best->difference))
-      best = std::move(made);
-  }
-  if (!best) return {};
-  Moved moved{{}, piece, best->difference};
-  moved.tiles = embedded(std::move(best->tiles), below, above,
+  const std::array<Point, 2> starts{Point{}, Point{-away.x, -away.y}};
+  auto made = tile_registered(below.region(), above.region(), starts, most_pairs, is_wanted);
+  if (!made) return {};
+  Moved moved{{}, piece, made->difference};
+  moved.tiles = embedded(std::move(made->tiles), below, above,
                          static_cast<std::uint32_t>(lower.points.size()),
                          static_cast<std::uint32_t>(upper.points.size()), piece.is_solid);
-  moved.piece.shift = {-best->motion.shift.x, -best->motion.shift.y};
-  moved.piece.registered_difference = best->difference;
+  moved.piece.shift = {-made->motion.shift.x, -made->motion.shift.y};
+  moved.piece.registered_difference = made->difference;
   return moved;
 }
 
@@ -162,12 +157,35 @@ bool is_alike(const Piece& piece) {
          piece.lower.loops.size() == piece.upper.loops.size();
 }
 
+/// Whether these tiles alone, between a piece's outlines, have neither window nor handle.
+bool is_band(const Region& lower, const Region& upper, const Piece& piece, const TileSet& tiles) {
+  std::vector<std::uint32_t> nodes;
+  for (const Tile& tile : tiles.tiles)
+    nodes.insert(nodes.end(), tile.nodes.begin(), tile.nodes.end());
+  std::ranges::sort(nodes);
+  const std::size_t repeated = std::ranges::unique(nodes).size();
+  std::size_t rims = 0;
+  for (const std::uint32_t loop : piece.lower.loops) rims += lower.loop(loop).size();
+  for (const std::uint32_t loop : piece.upper.loops) rims += upper.loop(loop).size();
+  return 2 * (nodes.size() - repeated) == tiles.tiles.size() + rims;
+}
+
+/// The tiles of each of some pieces, and of no others.
+std::vector<std::vector<std::uint32_t>> tiles_of(std::span<const std::uint32_t> some,
+                                                 const Pieces& pieces) {
+  std::vector<bool> is_one(pieces.pieces.size());
+  for (const std::uint32_t i : some) is_one[i] = true;
+  std::vector<std::vector<std::uint32_t>> found(pieces.pieces.size());
+  for (std::uint32_t t = 0; t < pieces.of_tile.size(); ++t)
+    if (is_one[pieces.of_tile[t]]) found[pieces.of_tile[t]].push_back(t);
+  return found;
+}
+
 /// Whether no edge of a piece has more than two tiles: it does where the slices touch, and seems to
 /// have handles there until it is taken apart.
-bool is_plain_surface(const TileSet& tiles, const Pieces& pieces, std::uint32_t piece) {
+bool is_plain_surface(const TileSet& tiles, std::span<const std::uint32_t> of_piece) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> edges;
-  for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
-    if (pieces.of_tile[t] != piece) continue;
+  for (const std::uint32_t t : of_piece) {
     const auto& nodes = tiles.tiles[t].nodes;
     for (unsigned i = 0; i < 3; ++i) edges.emplace_back(nodes[i], nodes[(i + 1) % 3]);
   }
@@ -189,15 +207,20 @@ void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
   }
   if (torn.empty()) return;
   const std::vector<double> before = differences(lower, upper, tiles, pieces);
+  std::erase_if(
+      torn, [&](std::uint32_t i) { return overlap(pieces.pieces[i], before[i]) >= torn_overlap; });
+  const auto tiles_of_torn = tiles_of(torn, pieces);
   std::vector<Replacement> replacements;
   for (const std::uint32_t i : torn) {
-    if (overlap(pieces.pieces[i], before[i]) >= torn_overlap) continue;
-    if (!is_plain_surface(tiles, pieces, i)) continue;
-    auto moved = move_registered(lower, upper, pieces.pieces[i]);
-    if (!moved || moved->difference > most_left * before[i]) continue;
-    if (length(moved->piece.shift) > max_shift.value_or(length(moved->piece.shift))) continue;
-    const Pieces alone{{moved->piece}, std::vector<std::uint32_t>(moved->tiles.tiles.size(), 0)};
-    if (twice_euler(lower, upper, moved->tiles, alone)[0] != 0) continue;
+    if (!is_plain_surface(tiles, tiles_of_torn[i])) continue;
+    const Piece& piece = pieces.pieces[i];
+    const auto is_wanted = [&](const Registered& made) {
+      const double way = length(made.motion.shift);
+      return made.difference <= most_left * before[i] && way <= max_shift.value_or(way) &&
+             is_band(lower, upper, piece, made.tiles);
+    };
+    auto moved = move_registered(lower, upper, piece, is_wanted);
+    if (!moved) continue;
     moved->piece.reason = LinkReason::registered;
     replacements.push_back(replacement(std::move(*moved), {i}));
   }
@@ -477,13 +500,15 @@ void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces&
     piece.shift = offset(piece);
     auto moved = move(lower, upper, piece);
     const std::vector<std::uint32_t> both{link.lower, link.upper};
+    const auto is_wanted = [&](const Registered& made) {
+      return overlap(piece, made.difference) >= least_overlap;
+    };
     if (moved && overlap(piece, moved->difference) >= least_overlap) {
       replacements.push_back(replacement(std::move(*moved), both));
     } else if (auto shell = move_shell(lower, upper, piece)) {
       shell->replaced = both;
       replacements.push_back(std::move(*shell));
-    } else if (auto fitted = move_registered(lower, upper, piece);
-               fitted && overlap(piece, fitted->difference) >= least_overlap) {
+    } else if (auto fitted = move_registered(lower, upper, piece, is_wanted)) {
       replacements.push_back(replacement(std::move(*fitted), both));
     } else if (moved && link.reason == LinkReason::order) {
       replacements.push_back(replacement(std::move(*moved), both));

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reconstruct/link/pieces.h"
+#include "reconstruct/registration/registration.h"
 
 namespace loft {
 
@@ -26,9 +27,12 @@ struct Moved {
 };
 
 /// The tiles of a piece by itself that has as many outlines and as many holes in both slices, moved
-/// over each other as these match (reconstruct/registration). None if there are no valid ones.
-[[nodiscard]] std::optional<Moved> move_registered(const Region& lower, const Region& upper,
-                                                   const Piece& piece);
+/// over each other as these match (reconstruct/registration), from where it is or from over each
+/// other, whichever leaves less of a difference. None if there are no valid ones, or if these are
+/// not wanted.
+[[nodiscard]] std::optional<Moved> move_registered(
+    const Region& lower, const Region& upper, const Piece& piece,
+    const IsWanted& is_wanted = [](const Registered&) { return true; });
 
 /// Moves the upper contours of pieces over their lower ones by the offset of their centroids, where
 /// a piece is one part in each slice, both cover less than 0.6 of what they cover together, and the

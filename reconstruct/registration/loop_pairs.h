@@ -13,6 +13,8 @@ namespace loft {
 struct LoopPair {
   std::uint32_t lower;
   std::uint32_t upper;
+
+  friend bool operator==(const LoopPair&, const LoopPair&) = default;
 };
 
 /// Outer loops with outer ones and holes with holes, those first that are nearest by their places,

@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+
+#include "cdt/effort.h"
 
 namespace loft {
 
@@ -19,7 +22,6 @@ bool is_less(double a, double b) { return a < b - rounding * a; }
 
 struct Costs {
   double direction_weight;
-  double pace_weight;
 
   double operator()(const Stretch& a, const Stretch& b) const {
     const double x = b.middle.x - a.middle.x;
@@ -32,42 +34,53 @@ struct Costs {
 /// Which way a course came to a pair.
 enum class Step : std::uint8_t { both, lower, upper };
 
-/// The least course through both loops from a pair that is given, round to it again. Rows are
-/// stretches of the lower loop, columns of the upper one; only columns in a row's range are looked
-/// at.
+/// Columns of a row: of a stretch of the lower loop, those of the upper one that are looked at.
+struct Range {
+  std::size_t first;
+  std::size_t last;  // behind the range
+};
+
+/// What all rows after one cost at least, and all columns after one: a course goes through each of
+/// them, and pays for a row and for a column by itself.
+struct Rest {
+  const double* of_rows;
+  const double* of_columns;
+};
+
+/// The least course through both loops from a pair to the one before it, once round. Rows are
+/// stretches of the lower loop, columns of the upper one, both counted from where it starts.
 class Course {
  public:
-  struct Range {
-    std::size_t first;
-    std::size_t last;  // behind the range
-  };
+  Course(std::size_t columns, double pace_weight) : pace_weight_(pace_weight), columns_(columns) {}
 
-  Course(std::span<const Stretch> lower, std::span<const Stretch> upper, Costs costs)
-      : lower_(lower), upper_(upper), costs_(costs) {}
-
-  /// Its cost. Precondition: ranges overlap from row to row; the first begins with 0, the last ends
-  /// at the end.
-  double find(std::size_t lower_start, std::size_t upper_start, std::span<const Range> ranges) {
-    lower_start_ = lower_start;
-    upper_start_ = upper_start;
+  /// Its cost; none once no course can cost less than `least`. `costs(row)` are those of the row's
+  /// range. Precondition: ranges overlap from row to row; the first begins with 0, the last ends at
+  /// the end.
+  template <typename CostsOfRow>
+  std::optional<double> find(std::span<const Range> ranges, CostsOfRow&& costs, double least,
+                             const Rest& rest) {
     ranges_.assign(ranges.begin(), ranges.end());
     starts_.assign(1, 0);
     for (const Range range : ranges) starts_.push_back(starts_.back() + range.last - range.first);
     steps_.resize(starts_.back());
-    before_.assign(upper_.size(), infinity);
-    row_.assign(upper_.size(), infinity);
-    for (std::size_t i = 0; i < lower_.size(); ++i) fill(i);
-    return before_[upper_.size() - 1];
+    before_.assign(columns_ + 1, infinity);
+    row_.assign(columns_ + 1, infinity);
+    before_[0] = 0;
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+      cdt::spend(1 + (ranges[i].last - ranges[i].first) / cells_of_step);
+      fill(i, costs(i));
+      if (least_in_all(i, rest.of_columns) + rest.of_rows[i] >= least) return {};
+    }
+    return before_[columns_];
   }
 
   /// The pairs of the course that was found last, back from the end.
   [[nodiscard]] std::vector<Match> pairs() const {
     std::vector<Match> found;
-    std::size_t i = lower_.size() - 1;
-    std::size_t j = upper_.size() - 1;
+    std::size_t i = ranges_.size() - 1;
+    std::size_t j = columns_ - 1;
     while (true) {
-      found.push_back(
-          {static_cast<std::uint32_t>(lower_index(i)), static_cast<std::uint32_t>(upper_index(j))});
+      found.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
       if (i == 0 && j == 0) return found;
       const Step step = steps_[starts_[i] + j - ranges_[i].first];
       if (step != Step::upper) --i;
@@ -76,47 +89,49 @@ class Course {
   }
 
  private:
-  [[nodiscard]] std::size_t lower_index(std::size_t i) const {
-    return (lower_start_ + i) % lower_.size();
-  }
-  [[nodiscard]] std::size_t upper_index(std::size_t j) const {
-    return (upper_start_ + j) % upper_.size();
-  }
+  /// About as many take as long as a test of two triangles.
+  static constexpr std::size_t cells_of_step = 16;
 
-  /// Row i, from that before it. A step costs what it leads to, by the length that it goes.
-  void fill(std::size_t i) {
-    const Stretch& a = lower_[lower_index(i)];
+  /// Row i, from that before it; the least in it. A step costs what it leads to, by the length that
+  /// it goes. Column j is at j + 1: the start comes from before all, diagonally and for nothing.
+  void fill(std::size_t i, const double* costs) {
     const auto [first, last] = ranges_[i];
+    Step* const steps = steps_.data() + starts_[i];
+    const double* const above = before_.data() + first;
+    double* const row = row_.data() + first + 1;
+    for (std::size_t k = 0; k < last - first; ++k) {
+      const double both = above[k] + 2 * costs[k];
+      const double lower = above[k + 1] + costs[k] + pace_weight_;
+      const bool is_lower = is_less(lower, both);
+      row[k] = is_lower ? lower : both;
+      steps[k] = is_lower ? Step::lower : Step::both;
+    }
     double left = infinity;  // of the pair before in this row
-    for (std::size_t j = first; j < last; ++j) {
-      const Stretch& b = upper_[upper_index(j)];
-      const double cost = costs_(a, b);
-      double best = i == 0 && j == 0 ? 2 * cost : infinity;
-      Step step = Step::both;
-      if (i > 0 && j > 0 && before_[j - 1] + 2 * cost < best) best = before_[j - 1] + 2 * cost;
-      if (i > 0 && is_less(before_[j] + cost + costs_.pace_weight, best)) {
-        best = before_[j] + cost + costs_.pace_weight;
-        step = Step::lower;
+    for (std::size_t k = 0; k < last - first; ++k) {
+      const double upper = left + costs[k] + pace_weight_;
+      left = row[k];
+      if (is_less(upper, left)) {
+        row[k] = left = upper;
+        steps[k] = Step::upper;
       }
-      if (is_less(left + cost + costs_.pace_weight, best)) {
-        best = left + cost + costs_.pace_weight;
-        step = Step::upper;
-      }
-      row_[j] = left = best;
-      steps_[starts_[i] + j - first] = step;
     }
     std::swap(row_, before_);
     const std::size_t from = i == 0 ? 0 : ranges_[i - 1].first;
-    const std::size_t to = i == 0 ? 0 : ranges_[i - 1].last;
+    const std::size_t to = i == 0 ? 1 : ranges_[i - 1].last + 1;
     std::fill(row_.begin() + static_cast<std::ptrdiff_t>(from),
               row_.begin() + static_cast<std::ptrdiff_t>(to), infinity);
   }
 
-  std::span<const Stretch> lower_;
-  std::span<const Stretch> upper_;
-  Costs costs_;
-  std::size_t lower_start_ = 0;
-  std::size_t upper_start_ = 0;
+  /// What a course through row i costs at least, but for the rows after it.
+  [[nodiscard]] double least_in_all(std::size_t i, const double* rest_of_columns) const {
+    double least = infinity;
+    for (std::size_t j = ranges_[i].first; j < ranges_[i].last; ++j)
+      least = std::min(least, before_[j + 1] + rest_of_columns[j]);
+    return least;
+  }
+
+  double pace_weight_;
+  std::size_t columns_;
   std::vector<Range> ranges_;
   std::vector<std::size_t> starts_;  // of each row in steps_
   std::vector<Step> steps_;
@@ -152,7 +167,7 @@ Sample sample(std::span<const Stretch> loop, std::size_t count) {
 struct Band {
   std::size_t lower_start;
   std::size_t upper_start;
-  std::vector<Course::Range> ranges;
+  std::vector<Range> ranges;
 };
 
 /// Pairs of a coarse course, turned so that the cheapest comes first, in the order of the course.
@@ -181,7 +196,7 @@ Band band(const std::vector<Match>& course, const Sample& lower, const Sample& u
   const std::size_t lower_reach = slack * (lower_size / lower.stretches.size() + 1) / 2;
   made.ranges.assign(lower_size, {upper_size, 0});
   const auto cover = [&](std::size_t i, std::size_t j) {
-    Course::Range& range = made.ranges[i];
+    Range& range = made.ranges[i];
     range.first = std::min(range.first, j > reach ? j - reach : 0);
     range.last = std::max(range.last, std::min(upper_size, j + reach + 1));
   };
@@ -203,7 +218,7 @@ Band band(const std::vector<Match>& course, const Sample& lower, const Sample& u
   }
   go_to(lower_size - 1, upper_size - 1);
   // Wider by rows, too, and one after the other.
-  std::vector<Course::Range> wide = made.ranges;
+  std::vector<Range> wide = made.ranges;
   for (std::size_t row = 0; row < lower_size; ++row) {
     const std::size_t from = row > lower_reach ? row - lower_reach : 0;
     const std::size_t to = std::min(lower_size - 1, row + lower_reach);
@@ -216,30 +231,106 @@ Band band(const std::vector<Match>& course, const Sample& lower, const Sample& u
   return made;
 }
 
+/// All costs between two loops' places.
+class CostTable {
+ public:
+  CostTable(std::span<const Stretch> lower, std::span<const Stretch> upper, Costs costs)
+      : rows_(lower.size()), columns_(upper.size()), least_of_columns_(columns_, infinity) {
+    for (const Stretch& a : lower) {
+      const auto first = static_cast<std::ptrdiff_t>(costs_.size());
+      for (std::size_t j = 0; j < columns_; ++j) {
+        costs_.push_back(costs(a, upper[j]));
+        least_of_columns_[j] = std::min(least_of_columns_[j], costs_.back());
+      }
+      least_of_rows_.push_back(*std::min_element(costs_.begin() + first, costs_.end()));
+      // Once more, to go round from any of them.
+      for (std::size_t j = 0; j < columns_; ++j) costs_.push_back(costs_[costs_.size() - columns_]);
+    }
+    rest_of_rows_.resize(rows_);
+    rest_of_columns_.resize(columns_);
+  }
+
+  /// The costs of row i from a column on, once round.
+  [[nodiscard]] const double* row(std::size_t i, std::size_t start) const {
+    return costs_.data() + 2 * columns_ * i + start;
+  }
+
+  /// For courses from that column on.
+  [[nodiscard]] Rest rest(std::size_t start) {
+    for (std::size_t i = rows_ - 1; i > 0; --i)
+      rest_of_rows_[i - 1] = rest_of_rows_[i] + least_of_rows_[i];
+    for (std::size_t j = columns_ - 1; j > 0; --j)
+      rest_of_columns_[j - 1] = rest_of_columns_[j] + least_of_columns_[(start + j) % columns_];
+    return {rest_of_rows_.data(), rest_of_columns_.data()};
+  }
+
+ private:
+  std::size_t rows_;
+  std::size_t columns_;
+  std::vector<double> costs_;
+  std::vector<double> least_of_rows_;
+  std::vector<double> least_of_columns_;
+  std::vector<double> rest_of_rows_;
+  std::vector<double> rest_of_columns_;
+};
+
+/// The least course between all places, wherever it starts, back from its end.
+std::vector<Match> find_coarse(std::span<const Stretch> lower, std::span<const Stretch> upper,
+                               Costs costs, double pace_weight) {
+  // A cost may be below 0 by rounding.
+  constexpr double below_zero = 1e-12;
+  const std::size_t columns = upper.size();
+  CostTable table(lower, upper, costs);
+  const std::vector<Range> all(lower.size(), {0, columns});
+  Course course(columns, pace_weight);
+  double least = infinity;
+  std::vector<Match> best;
+  for (std::size_t start = 0; start < columns; ++start) {
+    const auto costs_of_row = [&](std::size_t i) { return table.row(i, start); };
+    const double bound = least + below_zero * costs.direction_weight;
+    const auto cost = course.find(all, costs_of_row, bound, table.rest(start));
+    if (!cost || !is_less(*cost, least)) continue;
+    least = *cost;
+    best = course.pairs();
+    for (Match& match : best)
+      match.upper = static_cast<std::uint32_t>((match.upper + start) % columns);
+  }
+  return best;
+}
+
+/// The least course between all stretches in a band, back from its end.
+std::vector<Match> find_fine(std::span<const Stretch> lower, std::span<const Stretch> upper,
+                             Costs costs, double pace_weight, const Band& band) {
+  std::vector<double> row;
+  const auto costs_of_row = [&](std::size_t i) {
+    const Stretch& a = lower[(band.lower_start + i) % lower.size()];
+    row.clear();
+    for (std::size_t j = band.ranges[i].first; j < band.ranges[i].last; ++j)
+      row.push_back(costs(a, upper[(band.upper_start + j) % upper.size()]));
+    return row.data();
+  };
+  Course course(upper.size(), pace_weight);
+  const std::vector<double> none(std::max(lower.size(), upper.size()));
+  course.find(band.ranges, costs_of_row, infinity, {none.data(), none.data()});
+  std::vector<Match> pairs = course.pairs();
+  for (auto& [i, j] : pairs) {
+    i = static_cast<std::uint32_t>((i + band.lower_start) % lower.size());
+    j = static_cast<std::uint32_t>((j + band.upper_start) % upper.size());
+  }
+  return pairs;
+}
+
 }  // namespace
 
 std::vector<Match> match_outlines(std::span<const Stretch> lower, std::span<const Stretch> upper,
                                   double direction_weight, double pace_weight, std::size_t coarse) {
-  const Costs costs{direction_weight, pace_weight};
+  const Costs costs{direction_weight};
   const Sample below = sample(lower, coarse);
   const Sample above = sample(upper, coarse);
-  const std::size_t rows = below.stretches.size();
-  const std::size_t columns = above.stretches.size();
-  Course rough(below.stretches, above.stretches, costs);
-  const std::vector<Course::Range> all(rows, {0, columns});
-  double least = infinity;
-  std::vector<Match> best;
-  for (std::size_t start = 0; start < columns; ++start) {
-    const double cost = rough.find(0, start, all);
-    if (!is_less(cost, least)) continue;
-    least = cost;
-    best = rough.pairs();
-  }
-  best = from_cheapest(std::move(best), below, above, costs);
-  const Band near = band(best, below, above, lower.size(), upper.size());
-  Course fine(lower, upper, costs);
-  fine.find(near.lower_start, near.upper_start, near.ranges);
-  return fine.pairs();
+  const std::vector<Match> course = from_cheapest(
+      find_coarse(below.stretches, above.stretches, costs, pace_weight), below, above, costs);
+  return find_fine(lower, upper, costs, pace_weight,
+                   band(course, below, above, lower.size(), upper.size()));
 }
 
 }  // namespace loft

@@ -13,6 +13,8 @@ namespace loft {
 struct Match {
   std::uint32_t lower;
   std::uint32_t upper;
+
+  friend bool operator==(const Match&, const Match&) = default;
 };
 
 /// Which stretches of two loops belong together: cyclic dynamic time warping (Sakoe and Chiba,
@@ -23,7 +25,8 @@ struct Match {
 /// them.
 ///
 /// First between about `coarse` places of each loop, wherever one starts; then between all
-/// stretches, in a band around that. Cost: O(coarse^3 + stretches * band).
+/// stretches, in a band around that. Cost: O(stretches * band), and O(coarse^3) at worst: where one
+/// start is much better than others, these are left once they cannot cost less.
 [[nodiscard]] std::vector<Match> match_outlines(std::span<const Stretch> lower,
                                                 std::span<const Stretch> upper,
                                                 double direction_weight, double pace_weight,

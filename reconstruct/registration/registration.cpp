@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <list>
+#include <numeric>
 #include <utility>
 #include <vector>
 
+#include "cdt/effort.h"
 #include "reconstruct/registration/affine.h"
 #include "reconstruct/registration/displacement.h"
 #include "reconstruct/registration/frame.h"
@@ -40,22 +43,31 @@ constexpr std::size_t stretches_of_place = 4;
 /// Matched that often, each time with the affine part of what was found before taken out.
 constexpr int rounds = 3;
 
+/// About as many take as long as a test of two triangles.
+constexpr std::size_t distances_of_step = 64;
+
 /// The mean thickness: of a long wall what it is, of a disc its radius.
 double thickness_of(const Region& region) { return 2 * area(region) / perimeter(region); }
 
-/// The mean square of the way to the nearest stretch of another loop.
-double mean_square_distance(std::span<const Stretch> from, std::span<const Stretch> to) {
-  double sum = 0;
-  for (const Stretch& a : from) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Stretch& b : to) {
-      const double x = b.middle.x - a.middle.x;
-      const double y = b.middle.y - a.middle.y;
-      least = std::min(least, x * x + y * y);
+/// The mean square of the way to the nearest stretch of the other loop: the larger of both means.
+double mean_square_distance(std::span<const Stretch> lower, std::span<const Stretch> upper) {
+  cdt::spend(1 + lower.size() * upper.size() / distances_of_step);
+  const auto mean = [](std::span<const double> squares) {
+    return std::accumulate(squares.begin(), squares.end(), 0.0) /
+           static_cast<double>(squares.size());
+  };
+  std::vector<double> to_upper(lower.size(), std::numeric_limits<double>::infinity());
+  std::vector<double> to_lower(upper.size(), std::numeric_limits<double>::infinity());
+  for (std::size_t i = 0; i < lower.size(); ++i) {
+    for (std::size_t j = 0; j < upper.size(); ++j) {
+      const double x = upper[j].middle.x - lower[i].middle.x;
+      const double y = upper[j].middle.y - lower[i].middle.y;
+      const double square = x * x + y * y;
+      to_upper[i] = std::min(to_upper[i], square);
+      to_lower[j] = std::min(to_lower[j], square);
     }
-    sum += least;
   }
-  return sum / static_cast<double>(from.size());
+  return std::max(mean(to_upper), mean(to_lower));
 }
 
 /// The stretches of a pair of loops.
@@ -121,14 +133,23 @@ class Registration {
     sample(*pairs);
     back_ = {{}, {-offset.x, -offset.y}, {}, {}};
     for (int round = 0; round < rounds; ++round) {
-      for (Outlines& outlines : outlines_) match(outlines);
+      bool is_changed = false;
+      for (Outlines& outlines : outlines_) is_changed |= match(outlines);
+      if (!is_changed) break;  // nor would another round change anything
       pull();
     }
     return true;
   }
 
+  /// Whether another one has found the same.
+  [[nodiscard]] bool is_as(const Registration& other) const {
+    return pairs_ == other.pairs_ && std::ranges::equal(outlines_, other.outlines_, {},
+                                                        &Outlines::matches, &Outlines::matches);
+  }
+
  private:
-  void sample(std::span<const LoopPair> pairs) {
+  void sample(const std::vector<LoopPair>& pairs) {
+    pairs_ = pairs;
     const double length = std::max(perimeter(lower_), perimeter(upper_));
     const auto places = static_cast<std::size_t>(
         std::clamp(length / thickness_ + 1e-6, fewest_places, most_places));
@@ -137,14 +158,16 @@ class Registration {
                            stretches(upper_, pair.upper, stretches_of_place * places)});
   }
 
-  void match(Outlines& outlines) const {
+  /// Whether that is not what it was before.
+  bool match(Outlines& outlines) const {
     auto& [lower, upper, matches] = outlines;
     std::vector<Stretch> moved = upper;
     for (Stretch& stretch : moved) stretch = back_.moved(stretch);
-    const double distance = std::max({thickness_ * thickness_, mean_square_distance(lower, moved),
-                                      mean_square_distance(moved, lower)});
-    matches = match_outlines(lower, moved, direction_weight * distance, pace_weight * distance,
-                             lower.size() / stretches_of_place);
+    const double distance = std::max(thickness_ * thickness_, mean_square_distance(lower, moved));
+    const std::vector<Match> before = std::exchange(
+        matches, match_outlines(lower, moved, direction_weight * distance, pace_weight * distance,
+                                lower.size() / stretches_of_place));
+    return matches != before;
   }
 
   void pull() {
@@ -168,31 +191,88 @@ class Registration {
   const Region& lower_;
   const Region& upper_;
   double thickness_;
+  std::vector<LoopPair> pairs_;
   std::vector<Outlines> outlines_;
   std::vector<Pull> lower_pulls_;
   std::vector<Pull> upper_pulls_;
   Affine back_;
 };
 
-}  // namespace
+/// What is left of two draughts' differences may differ by that share by rounding.
+constexpr double rounding_of_difference = 0x1p-40;
 
-std::optional<Registered> tile_registered(const Region& lower, const Region& upper, Point offset,
-                                          std::size_t most_pairs) {
-  Registration registration(lower, upper);
-  if (!registration.match(offset)) return {};
-  const double thickness = registration.thickness();
-  const auto below = Displacement::fit(lower, registration.lower_pulls(), softness * thickness);
-  const auto above = Displacement::fit(upper, registration.upper_pulls(), softness * thickness);
+/// Tiles that are chosen, but not put back and tested.
+struct Draught {
+  Frame frame;
+  Registered registered;
+};
+
+std::optional<Draught> draw(const Region& lower, const Region& upper,
+                            const Registration& registration, std::size_t most_pairs) {
+  const double least = softness * registration.thickness();
+  const auto below = Displacement::fit(lower, registration.lower_pulls(), least);
+  const auto above = Displacement::fit(upper, registration.upper_pulls(), least);
   if (!below || !above) return {};
-  const Frame frame(lower, upper, below->ways(), above->ways());
+  Frame frame(lower, upper, below->ways(), above->ways());
   auto tiles = tile_with_crossings(frame.lower(), frame.upper(), most_pairs);
   if (!tiles) return {};
   const double difference = frame.covered(*tiles);
-  frame.put_back(*tiles);
-  collapse_crossings(lower, upper, *tiles, true, most_drift * thickness);
-  std::size_t pairs_left = most_pairs;
-  if (tiles_meet(lower, upper, *tiles, pairs_left)) return {};
-  return Registered{std::move(*tiles), difference, registration.motion()};
+  return Draught{std::move(frame), {std::move(*tiles), difference, registration.motion()}};
+}
+
+std::list<Draught> draw_all(const Region& lower, const Region& upper,
+                            std::span<const Point> offsets, std::size_t most_pairs) {
+  std::list<Draught> draughts;
+  std::vector<Registration> before;
+  for (const Point offset : offsets) {
+    Registration registration(lower, upper);
+    if (!registration.match(offset)) continue;
+    const auto is_same = [&](const Registration& other) { return registration.is_as(other); };
+    if (std::ranges::any_of(before, is_same)) continue;
+    if (auto draught = draw(lower, upper, registration, most_pairs))
+      draughts.push_back(std::move(*draught));
+    before.push_back(std::move(registration));
+  }
+  return draughts;
+}
+
+/// The one that leaves least of a difference, the first of those that are the same but for
+/// rounding.
+std::list<Draught>::iterator best(std::list<Draught>& draughts) {
+  auto best = draughts.begin();
+  for (auto it = draughts.begin(); it != draughts.end(); ++it)
+    if (it->registered.difference < (1 - rounding_of_difference) * best->registered.difference)
+      best = it;
+  return best;
+}
+
+/// False if the tiles meet.
+bool put_back(const Region& lower, const Region& upper, double thickness, Draught& draught,
+              std::size_t most_pairs) {
+  TileSet& tiles = draught.registered.tiles;
+  draught.frame.put_back(tiles);
+  collapse_crossings(lower, upper, tiles, true, most_drift * thickness);
+  return !tiles_meet(lower, upper, tiles, most_pairs);
+}
+
+}  // namespace
+
+std::optional<Registered> tile_registered(const Region& lower, const Region& upper,
+                                          std::span<const Point> offsets, std::size_t most_pairs,
+                                          const IsWanted& is_wanted) {
+  const double thickness = std::min(thickness_of(lower), thickness_of(upper));
+  std::list<Draught> draughts = draw_all(lower, upper, offsets, most_pairs);
+  const auto is_hopeful = [&](const Draught& draught) { return is_wanted(draught.registered); };
+  while (std::ranges::any_of(draughts, is_hopeful)) {
+    const auto chosen = best(draughts);
+    const bool is_chosen_wanted = is_hopeful(*chosen);
+    if (put_back(lower, upper, thickness, *chosen, most_pairs)) {
+      if (!is_chosen_wanted) return {};
+      return std::move(chosen->registered);
+    }
+    draughts.erase(chosen);
+  }
+  return {};
 }
 
 }  // namespace loft

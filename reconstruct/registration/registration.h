@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <optional>
+#include <span>
 
 #include "reconstruct/clean/region.h"
 #include "reconstruct/tile/tiles.h"
@@ -22,18 +24,25 @@ struct Registered {
   Motion motion;
 };
 
+/// Of tiles that are not put back yet: there are more crossings then, but the same Euler
+/// characteristic.
+using IsWanted = std::function<bool(const Registered&)>;
+
 /// The tiles between two regions with as many outer loops and as many holes, chosen while both are
 /// moved half way over each other, each by a displacement of the plane that its loops' matches
 /// suggest: what turns, folds or slants is joined with what it becomes, although it does not
 /// overlap. Contour vertices are where they always were; others are put back by their height's
 /// share.
 ///
-/// `offset` is about where the upper region is, from the lower one. None if no displacement is an
-/// embedding, or if the tiles meet (exact). A function of the regions alone, and the same, but for
-/// rounding, if they are turned, mirrored or exchanged. Cost: that of the CDT of both and of each,
-/// of a sparse linear system, and of the cube of the places that loops are matched at (at most
-/// 128); no more than `most_pairs` pairs of tiles are tested.
-[[nodiscard]] std::optional<Registered> tile_registered(const Region& lower, const Region& upper,
-                                                        cdt::Point offset, std::size_t most_pairs);
+/// `offsets` are about where the upper region may be, from the lower one; from whichever leaves
+/// least of a difference, the first of equal ones. None if no displacement is an embedding, if the
+/// tiles meet (exact), or if they are not wanted: these are not tested, which takes most of the
+/// time. A function of the regions alone, and the same, but for rounding, if they are turned,
+/// mirrored or exchanged. Cost: that of the CDT of both and of each, of a sparse linear system, and
+/// at most of the cube of the places that loops are matched at (at most 128); no more than
+/// `most_pairs` pairs of tiles are tested.
+[[nodiscard]] std::optional<Registered> tile_registered(
+    const Region& lower, const Region& upper, std::span<const cdt::Point> offsets,
+    std::size_t most_pairs, const IsWanted& is_wanted = [](const Registered&) { return true; });
 
 }  // namespace loft

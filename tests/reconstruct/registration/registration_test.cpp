@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -180,10 +181,12 @@ Region region_of(const std::vector<Point>& outline, double z = 0) {
   return region_of(Slice{z, {{outline, ""}}});
 }
 
+constexpr std::array<Point, 1> one_offset{};
+
 TEST(Registration, LeavesAloneWhatHasNotAsManyLoops) {
   const Region ring = region_of(frame(0, 0));
   const Region square = region_of({{0, 0}, {100, 0}, {100, 100}, {0, 100}}, 1);
-  EXPECT_FALSE(tile_registered(ring, square, {}, any_number));
+  EXPECT_FALSE(tile_registered(ring, square, one_offset, any_number));
 }
 
 TEST(Registration, KnowsHowFarAPartTurns) {
@@ -192,7 +195,7 @@ TEST(Registration, KnowsHowFarAPartTurns) {
   for (const Point p : bar)
     other.push_back({p.x * std::cos(0.3) - p.y * std::sin(0.3) + 1,
                      p.x * std::sin(0.3) + p.y * std::cos(0.3) + 2});
-  const auto made = tile_registered(region_of(bar), region_of(other, 5), {}, any_number);
+  const auto made = tile_registered(region_of(bar), region_of(other, 5), one_offset, any_number);
   ASSERT_TRUE(made);
   EXPECT_NEAR(made->motion.turn, 0.3, 0.1);
   EXPECT_NEAR(made->motion.shift.y, 2, 0.3);
