@@ -10,8 +10,10 @@
 #include "mesh/box_tree.h"
 #include "mesh/predicates.h"
 #include "reconstruct/link/extract.h"
+#include "reconstruct/link/moves.h"
 #include "reconstruct/link/parts.h"
 #include "reconstruct/link/replace.h"
+#include "reconstruct/link/slide.h"
 #include "reconstruct/link/tips.h"
 
 namespace loft {
@@ -333,7 +335,7 @@ class Ordering {
       group.shift = shift;
       return embed(std::move(*tiles));
     }
-    if (auto made = move_registered(lower_, upper_, whole(group))) {
+    if (auto made = move_by_loops(lower_, upper_, whole(group))) {
       group.shift = made->piece.shift;
       return std::move(made->tiles);
     }

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "reconstruct/link/links.h"
+#include "reconstruct/link/ends.h"
 #include "reconstruct/options.h"
 #include "reconstruct/slice.h"
 

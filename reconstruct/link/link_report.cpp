@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "mesh/vec3.h"
-#include "reconstruct/link/links.h"
+#include "reconstruct/link/moves.h"
 
 namespace loft {
 

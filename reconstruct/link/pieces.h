@@ -49,6 +49,9 @@ struct Piece {
   cdt::Point shift;  ///< by which its upper contours were moved over the lower ones to be tiled
   /// The area between its contours once they were moved as they match, not by the shift alone.
   std::optional<double> registered_difference = {};
+  /// Whether the slices tell over each place how it bends: not if it was registered, and overlaps
+  /// little.
+  bool bends = true;
 
   [[nodiscard]] const Footprint& footprint(Level level) const {
     return level == Level::lower ? lower : upper;

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "reconstruct/link/link_orders.h"
-#include "reconstruct/link/links.h"
+#include "reconstruct/link/ends.h"
 #include "reconstruct/live/retile.h"
 #include "reconstruct/shape/refine.h"
 

@@ -12,7 +12,7 @@
 #include "cdt/triangulation.h"
 #include "reconstruct/clean/region.h"
 #include "reconstruct/defect.h"
-#include "reconstruct/link/links.h"
+#include "reconstruct/link/ends.h"
 #include "reconstruct/link/pieces.h"
 #include "reconstruct/live/live_surface.h"
 #include "reconstruct/live/snapshot.h"

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "reconstruct/link/extract.h"
-#include "reconstruct/link/links.h"
+#include "reconstruct/link/slide.h"
 #include "reconstruct/link/replace.h"
 #include "reconstruct/plane/tile_grid.h"
 

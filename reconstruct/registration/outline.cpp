@@ -34,6 +34,26 @@ std::vector<Stretch> stretches(const Region& region, std::uint32_t loop, std::si
   return made;
 }
 
+std::vector<Stretch> stretches_by_edges(const Region& region, std::uint32_t loop, double length) {
+  std::vector<Stretch> made;
+  const auto vertices = region.loop(loop);
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    const std::uint32_t from = vertices[i];
+    const std::uint32_t to = vertices[(i + 1) % vertices.size()];
+    const Point p = region.points[from];
+    const Point q = region.points[to];
+    const double whole = std::hypot(q.x - p.x, q.y - p.y);
+    const Point normal{(q.y - p.y) / whole, (p.x - q.x) / whole};
+    const double count = std::max(1.0, std::round(whole / length));
+    for (double k = 0; k < count; ++k) {
+      const double share = (k + 0.5) / count;
+      const Point middle{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
+      made.push_back({middle, normal, whole / count, from, to, share});
+    }
+  }
+  return made;
+}
+
 double perimeter(const Region& region) {
   double sum = 0;
   for (const Segment& edge : boundary(region))

@@ -24,6 +24,11 @@ struct Stretch {
 [[nodiscard]] std::vector<Stretch> stretches(const Region& region, std::uint32_t loop,
                                              std::size_t count);
 
+/// A loop as stretches of about a length: its edges, or equal parts of them. They do not depend on
+/// where the loop begins. Cost: O(stretches).
+[[nodiscard]] std::vector<Stretch> stretches_by_edges(const Region& region, std::uint32_t loop,
+                                                      double length);
+
 /// The length of all loops.
 [[nodiscard]] double perimeter(const Region& region);
 /// What is inside the loops; negative if that is outside of them.

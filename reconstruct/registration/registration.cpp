@@ -3,18 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <list>
-#include <numeric>
 #include <utility>
 #include <vector>
 
-#include "cdt/effort.h"
 #include "reconstruct/registration/affine.h"
 #include "reconstruct/registration/displacement.h"
 #include "reconstruct/registration/frame.h"
 #include "reconstruct/registration/loop_pairs.h"
 #include "reconstruct/registration/matching.h"
+#include "reconstruct/registration/nearest.h"
 #include "reconstruct/tile/crossings.h"
 
 namespace loft {
@@ -43,32 +41,8 @@ constexpr std::size_t stretches_of_place = 4;
 /// Matched that often, each time with the affine part of what was found before taken out.
 constexpr int rounds = 3;
 
-/// About as many take as long as a test of two triangles.
-constexpr std::size_t distances_of_step = 64;
-
 /// The mean thickness: of a long wall what it is, of a disc its radius.
 double thickness_of(const Region& region) { return 2 * area(region) / perimeter(region); }
-
-/// The mean square of the way to the nearest stretch of the other loop: the larger of both means.
-double mean_square_distance(std::span<const Stretch> lower, std::span<const Stretch> upper) {
-  cdt::spend(1 + lower.size() * upper.size() / distances_of_step);
-  const auto mean = [](std::span<const double> squares) {
-    return std::accumulate(squares.begin(), squares.end(), 0.0) /
-           static_cast<double>(squares.size());
-  };
-  std::vector<double> to_upper(lower.size(), std::numeric_limits<double>::infinity());
-  std::vector<double> to_lower(upper.size(), std::numeric_limits<double>::infinity());
-  for (std::size_t i = 0; i < lower.size(); ++i) {
-    for (std::size_t j = 0; j < upper.size(); ++j) {
-      const double x = upper[j].middle.x - lower[i].middle.x;
-      const double y = upper[j].middle.y - lower[i].middle.y;
-      const double square = x * x + y * y;
-      to_upper[i] = std::min(to_upper[i], square);
-      to_lower[j] = std::min(to_lower[j], square);
-    }
-  }
-  return std::max(mean(to_upper), mean(to_lower));
-}
 
 /// The stretches of a pair of loops.
 struct Outlines {
@@ -109,6 +83,44 @@ void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
   }
 }
 
+/// All stretches of a region, and the loop of each.
+struct AllStretches {
+  std::vector<Stretch> stretches;
+  std::vector<std::uint32_t> loops;
+};
+
+AllStretches all_stretches(const Region& region, double length) {
+  AllStretches all;
+  for (std::uint32_t i = 0; i < region.loop_count(); ++i) {
+    const std::vector<Stretch> more = stretches_by_edges(region, i, length);
+    all.stretches.insert(all.stretches.end(), more.begin(), more.end());
+    all.loops.resize(all.stretches.size(), i);
+  }
+  return all;
+}
+
+/// Stretches where the mean way of their loop's takes them. `pulls` are theirs.
+std::vector<Stretch> moved_by_loops(const AllStretches& all, std::span<const Pull> pulls) {
+  struct Sum {
+    Point way;
+    double weight = 0;
+  };
+  std::vector<Sum> sums(all.loops.empty() ? 0 : all.loops.back() + 1);
+  for (std::size_t i = 0; i < pulls.size(); ++i) {
+    auto& [way, weight] = sums[all.loops[i]];
+    const double more = pulls[i].weight;
+    way = {way.x + more * pulls[i].way.x, way.y + more * pulls[i].way.y};
+    weight += more;
+  }
+  std::vector<Stretch> moved = all.stretches;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const auto& [way, weight] = sums[all.loops[i]];
+    Point& p = moved[i].middle;
+    p = {p.x + way.x / weight, p.y + way.y / weight};
+  }
+  return moved;
+}
+
 /// Finds how two regions lie over each other.
 class Registration {
  public:
@@ -125,8 +137,28 @@ class Registration {
     return {{-shift.x, -shift.y}, -std::atan2(along_x.y - along_y.x, 2 + along_x.x + along_y.y)};
   }
 
-  /// False if their loops do not belong together.
-  bool match(Point offset) {
+  /// Whatever loops they have: each stretch with the nearest one, as iterated closest points do
+  /// (Besl and McKay, 1992), where each loop has gone its way since the round before.
+  bool match_places() {
+    if (!(thickness_ > 0)) return false;
+    const auto count = static_cast<double>(stretches_of_place * places());
+    const AllStretches below = all_stretches(lower_, perimeter(lower_) / count);
+    const AllStretches above = all_stretches(upper_, perimeter(upper_) / count);
+    outlines_.assign(1, {below.stretches, above.stretches});
+    std::vector<Stretch> lower = below.stretches;
+    std::vector<Stretch> upper = above.stretches;
+    for (int round = 0; round < rounds; ++round) {
+      const double distance = std::max(thickness_ * thickness_, mean_square_distance(lower, upper));
+      outlines_[0].matches = match_nearest(lower, upper, direction_weight * distance);
+      pull();
+      lower = moved_by_loops(below, lower_pulls_);
+      upper = moved_by_loops(above, upper_pulls_);
+    }
+    return true;
+  }
+
+  /// Loop with loop. False if their loops do not belong together.
+  bool match_loops(Point offset) {
     if (!(thickness_ > 0)) return false;
     const auto pairs = pair_loops(lower_, upper_, offset);
     if (!pairs) return false;
@@ -148,11 +180,15 @@ class Registration {
   }
 
  private:
+  [[nodiscard]] std::size_t places() const {
+    const double length = std::max(perimeter(lower_), perimeter(upper_));
+    return static_cast<std::size_t>(
+        std::clamp(length / thickness_ + 1e-6, fewest_places, most_places));
+  }
+
   void sample(const std::vector<LoopPair>& pairs) {
     pairs_ = pairs;
-    const double length = std::max(perimeter(lower_), perimeter(upper_));
-    const auto places = static_cast<std::size_t>(
-        std::clamp(length / thickness_ + 1e-6, fewest_places, most_places));
+    const std::size_t places = this->places();
     for (const LoopPair& pair : pairs)
       outlines_.push_back({stretches(lower_, pair.lower, stretches_of_place * places),
                            stretches(upper_, pair.upper, stretches_of_place * places)});
@@ -226,7 +262,7 @@ std::list<Draught> draw_all(const Region& lower, const Region& upper,
   std::vector<Registration> before;
   for (const Point offset : offsets) {
     Registration registration(lower, upper);
-    if (!registration.match(offset)) continue;
+    if (!registration.match_loops(offset)) continue;
     const auto is_same = [&](const Registration& other) { return registration.is_as(other); };
     if (std::ranges::any_of(before, is_same)) continue;
     if (auto draught = draw(lower, upper, registration, most_pairs))
@@ -273,6 +309,17 @@ std::optional<Registered> tile_registered(const Region& lower, const Region& upp
     draughts.erase(chosen);
   }
   return {};
+}
+
+std::optional<Registered> tile_registered_by_places(const Region& lower, const Region& upper,
+                                                    std::size_t most_pairs,
+                                                    const IsWanted& is_wanted) {
+  Registration registration(lower, upper);
+  if (!registration.match_places()) return {};
+  auto draught = draw(lower, upper, registration, most_pairs);
+  if (!draught || !is_wanted(draught->registered)) return {};
+  if (!put_back(lower, upper, registration.thickness(), *draught, most_pairs)) return {};
+  return std::move(draught->registered);
 }
 
 }  // namespace loft

@@ -45,4 +45,12 @@ using IsWanted = std::function<bool(const Registered&)>;
     const Region& lower, const Region& upper, std::span<const cdt::Point> offsets,
     std::size_t most_pairs, const IsWanted& is_wanted = [](const Registered&) { return true; });
 
+/// The same for regions with any loops, as where a part forks: each stretch of a loop is matched
+/// with that of the other region which is nearest to it by place and direction, so that loops go
+/// their own ways. What moves by more than it is wide is matched wrongly.
+[[nodiscard]] std::optional<Registered> tile_registered_by_places(const Region& lower,
+                                                                  const Region& upper,
+                                                                  std::size_t most_pairs,
+                                                                  const IsWanted& is_wanted);
+
 }  // namespace loft

@@ -133,10 +133,12 @@ std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const S
   std::vector<Shape> shapes(pieces.pieces.size());
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
-    if (piece.is_tip()) continue;               // a point or a line tells where it ends
-    if (piece.registered_difference) continue;  // it goes its own way, which no vertical line tells
+    if (piece.is_tip()) continue;  // a point or a line tells where it ends
+    if (!piece.bends) continue;
     if (!piece.is_end()) {
-      shapes[i] = SmoothPassage(slices, {-piece.shift.x, -piece.shift.y});
+      // What goes several ways at once is bent over each place as it is.
+      const Point way = piece.registered_difference ? Point{} : piece.shift;
+      shapes[i] = SmoothPassage(slices, {-way.x, -way.y});
     } else if (depths[i].depth > 0) {
       shapes[i] =
           SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place, depths[i].depth);

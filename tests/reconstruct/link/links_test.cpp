@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/link/links.h"
+#include "reconstruct/link/ends.h"
 
 #include <gtest/gtest.h>
 

@@ -7,41 +7,10 @@
 #include <vector>
 
 #include "reconstruct/link/pieces.h"
-#include "reconstruct/registration/registration.h"
 
 namespace loft {
 
-/// Correspondence beyond overlap: parts that move sideways between
-/// two slices, by a good deal of their width or by more. Sizes are Footprint::radius.
-
-/// From the centroid of a piece's upper footprint to that of its lower one, rounded to 2^-40 of it:
-/// points moved by it lose little, and it does not depend on the order of sums.
-[[nodiscard]] cdt::Point offset(const Piece& piece);
-
-/// The tiles of a piece by itself, its upper part moved by its shift; and how far the two parts
-/// overlap then.
-struct Moved {
-  TileSet tiles;
-  Piece piece;
-  double difference = 0;
-};
-
-/// The tiles of a piece by itself that has as many outlines and as many holes in both slices, moved
-/// over each other as these match (reconstruct/registration), from where it is or from over each
-/// other, whichever leaves less of a difference. None if there are no valid ones, or if these are
-/// not wanted.
-[[nodiscard]] std::optional<Moved> move_registered(
-    const Region& lower, const Region& upper, const Piece& piece,
-    const IsWanted& is_wanted = [](const Registered&) { return true; });
-
-/// Moves the upper contours of pieces over their lower ones by the offset of their centroids, where
-/// a piece is one part in each slice, both cover less than 0.6 of what they cover together, and the
-/// move takes away at least 0.3 of their difference. Such a piece would be pinched by overlay
-/// alone. Before that, pieces that overlay has torn, although they have as many outlines and holes
-/// in both slices, are moved as these match (move_registered()), if that leaves no windows and
-/// handles. A function of the two slices.
-void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-           std::optional<double> max_shift);
+/// What ends in a slab, and goes on beside where it ends. Sizes are Footprint::radius.
 
 /// A slab as its neighbours see it.
 struct SlabPieces {
@@ -78,12 +47,10 @@ struct EndLink {
 /// Tiles matched ends as one piece each, the upper part moved over the lower one. If they then
 /// cover less than 0.4 of what they cover together, and one is hollow, as where a shell closes, its
 /// outlines are joined and its holes by themselves, or the holes end. If that makes too little of
-/// an overlap, too, the match is left out, unless an order asks for it. Where these tiles meet
-/// nothing else (exact test), they take the place of the two ends.
+/// an overlap, too, they are moved as their outlines match (move_by_loops()); else the match is
+/// left out, unless an order asks for it. Where these tiles meet nothing else (exact test), they
+/// take the place of the two ends.
 void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
                std::span<const EndLink> links);
-
-/// The share of what two footprints cover together that both cover, by the area between them.
-[[nodiscard]] double overlap(const Piece& piece, double difference);
 
 }  // namespace loft
