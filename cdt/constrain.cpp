@@ -82,9 +82,11 @@ VertexId Triangulation::meet(EdgeId e, SegmentId s) {
     has_bends_ = true;
     return end;
   }
-  if (!can_split(e, *place)) return VertexId::none();
+  // Near 0 rounding may have bent the segments along e so much that s crosses them further on.
+  if (!is_boxed(point(from(e)), point(to(e)), *place) || !can_split(e, *place))
+    return VertexId::none();
   const VertexId v = split_edge_at(e, *place);
-  return settle_around(v) ? v : VertexId::none();
+  return settle_new(v) ? v : VertexId::none();
 }
 
 /// Where s crosses all segments along e, if that is one place.
@@ -157,17 +159,15 @@ EdgeId Triangulation::connect(VertexId from, VertexId to, SegmentId s) {
 
 /// Adds a passage of s along e, in the direction of e.
 void Triangulation::mark(EdgeId e, SegmentId s) {
+  const EdgeId f = twin(e);
   touch(triangle(e));
-  touch(triangle(twin(e)));
-  join(e, twin(e), sets_.with(side(e).set, Passage(s, is_upward(e))));
+  touch(triangle(f));
+  const VertexId a = from(e);
+  const VertexId b = from(f);
+  join(e, f, sets_.with(side(e).set, Passage(s, point(a) < point(b))));
   const Segment& segment = this->segment(s);
-  for (const VertexId v : {from(e), to(e)})
+  for (const VertexId v : {a, b})
     if (v != segment.from && v != segment.to) note(passed, v);
-}
-
-void Triangulation::note(Trait trait, VertexId v) {
-  if (v.index() >= traits_.size()) traits_.resize(points_.size());
-  traits_[v.index()] |= trait;
 }
 
 /// What is first in the way from one vertex to another, along the line from a to b that both are

@@ -205,15 +205,17 @@ void Triangulation::take_off_crowded() {
 bool Triangulation::settle_piece(EdgeId e, SegmentId s) {
   const Point a = point(segment(s).from);
   const Point b = point(segment(s).to);
-  const double reach = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  const EdgeId f = twin(e);
   const Point start = point(from(e));
-  const Point end = point(to(e));
-  const Strip strip(start, end, reach);
+  const Point end = point(from(f));
+  const Strip strip(start, end, a.x * a.x + a.y * a.y + b.x * b.x + b.y * b.y);
   const auto is_clear = [&](VertexId v) {
     return strip.is_far_from(point(v)) || v == infinite ||
-           is_clearly_beside(start, end, point(v), reach);
+           is_clearly_beside(
+               start, end, point(v),
+               std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)}));
   };
-  if (is_clear(apex(e)) && is_clear(apex(twin(e)))) return true;
+  if (is_clear(apex(e)) && is_clear(apex(f))) return true;
   if (lead_through_apex(e) || lead_through_apex(twin(e))) {
     settle_pieces();
     return false;

@@ -70,11 +70,12 @@ inline constexpr int most_detours = 32;
 /// What is_clearly_beside() an edge, told from fewer operations.
 class Strip {
  public:
+  /// `reach`: a bound for the squares of coordinates.
   Strip(Point a, Point b, double reach)
       : start_(a),
         way_{b.x - a.x, b.y - a.y},
         length_(way_.x * way_.x + way_.y * way_.y),
-        near_(crowded_rounding * crowded_rounding * reach * reach) {}
+        near_(crowded_rounding * crowded_rounding * reach) {}
 
   /// Where it says no, or there is infinity, nothing is known. In squares: a length in steps along
   /// the axes is at most twice that as the crow flies, and the way from b at most twice those from

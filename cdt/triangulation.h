@@ -423,7 +423,7 @@ class Triangulation {
   [[nodiscard]] bool can_split(EdgeId e, Point point) const;
   [[nodiscard]] bool should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const;
   void flip(EdgeId e);
-  void restore_delaunay();
+  bool restore_delaunay();
   void push_star(VertexId v);
 
   // locate.cpp
@@ -450,7 +450,10 @@ class Triangulation {
   [[nodiscard]] VertexId snap(EdgeId e, Point place, SegmentId s);
   void reroute(EdgeId e, VertexId through);
   void mark(EdgeId e, SegmentId s);
-  void note(Trait trait, VertexId v);
+  void note(Trait trait, VertexId v) {
+    if (v.index() >= traits_.size()) traits_.resize(points_.size());
+    traits_[v.index()] |= trait;
+  }
   [[nodiscard]] unsigned traits(VertexId v) const {
     return v.index() < traits_.size() ? traits_[v.index()] : 0;
   }
@@ -464,6 +467,9 @@ class Triangulation {
   // course.cpp: the vertices that a segment leads through
   [[nodiscard]] bool belongs_at_apex(EdgeId e, Passage passage);
   bool lead_through_apex(EdgeId e);
+  bool settle_new(VertexId v) {
+    return !(is_surrounded_ || is_crowded_) || settle_around(v, is_crowded_);
+  }
   bool settle_around(VertexId v, bool may_be_crowded = true);
   [[nodiscard]] bool lead_others_through(VertexId v);
   [[nodiscard]] bool find_crowds(VertexId v);

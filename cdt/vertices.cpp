@@ -153,7 +153,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
     doubt_others_on(place.edge, point);
   }
   const VertexId v = split_at(place, point);
-  if (epsilon_ == 0 && (is_surrounded_ || is_crowded_)) settle_around(v, is_crowded_);
+  if (epsilon_ == 0) settle_new(v);
   last_ = edge(v);
   locator_.add(v, point);
   return v;
@@ -404,7 +404,8 @@ VertexId Triangulation::split_edge_at(EdgeId e, Point place) {
   if (!is_straight) {
     is_flat_ = false;
     push_star(v);
-    restore_delaunay();
+    // What fan_out() has seen holds for as long as nothing around has changed.
+    if (restore_delaunay()) is_surrounded_ = is_crowded_ = true;
   }
   return v;
 }
@@ -450,8 +451,10 @@ void Triangulation::flip(EdgeId e) {
   vertex_edges_[d.index()] = dc;
 }
 
-/// Flips until every edge that suspects_ leads to is constrained Delaunay.
-void Triangulation::restore_delaunay() {
+/// Flips until every edge that suspects_ leads to is constrained Delaunay. Returns whether there
+/// was one to flip.
+bool Triangulation::restore_delaunay() {
+  bool has_flipped = false;
   while (!suspects_.empty()) {
     const EdgeId e = suspects_.back();
     suspects_.pop_back();
@@ -459,8 +462,10 @@ void Triangulation::restore_delaunay() {
     const EdgeId f = twin(e);
     if (!should_flip(from(e), from(f), apex(e), apex(f))) continue;
     flip(e);
+    has_flipped = true;
     for (const EdgeId side : {e, f, prev(e), prev(f)}) suspects_.push_back(side);
   }
+  return has_flipped;
 }
 
 /// Puts the edges at a vertex and those around it on the list of suspects.
