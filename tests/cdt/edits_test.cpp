@@ -82,6 +82,23 @@ TEST(Crossings, KeepTheOrderOfCoordinatesWhereAMovedSegmentIsAlmostParallel) {
             "");
 }
 
+// A crossing has bent the segment so that it had to lead through (0, 0), which is not near there.
+TEST(Snaps, GoWithTheCrossingThatMadeThem) {
+  Tally tally;
+  EXPECT_EQ(verdict(read_script("insert 0 open -2.3999999999999972 -7.199999999999995\n"
+                                "move 0 -1.799999999999999 -5.400000000000002 "
+                                "2.3999999999999988e-15 7.200000000000003e-15\n"
+                                "insert 1 closed -2.400000000000001 -7.199999999999994\n"
+                                "move 1 -63.4 14.5 -12.6 -26.1 -40.8 32.5 -40.8 -32.5 -12.6 26.1\n"
+                                "remove 1\n"
+                                "insert 2 open 1.2000000000000006e-15 3.5999999999999985e-15 "
+                                "0 1.4000000000000007e-15 2.400000000000004 7.200000000000006\n"
+                                "insert 3 closed 0 0\n"
+                                "remove 2"),
+                    {1, 100}, tally),
+            "");
+}
+
 /// The number of edits of the long run: `ctest -L soak` sets it.
 std::size_t soak_edits() {
   const char* edits = std::getenv("LOFT_SOAK_EDITS");
