@@ -121,7 +121,6 @@ bool Triangulation::find_crowds(VertexId v) {
   EdgeId e = first;
   Spoke spoke(place, point(to(e)));
   do {
-    const EdgeId around = next(e);
     const Point a = point(to(e));
     const Point b = point(apex(e));
     const Spoke following(place, b);
