@@ -19,11 +19,12 @@ void Triangulation::lay(SegmentId s) {
     lay_crooked(s, segment.from);
     return;
   }
-  const auto may_miss_something_at = [&](VertexId v) {
-    return (has_crowds_ || (has_bends_ && may_be_passed(v))) && misses_something_at(v, s);
+  const unsigned suspicious = has_bends_ ? passed | crowded : crowded;
+  const auto misses_something = [&](VertexId v) {
+    return (traits(v) & suspicious) != 0 && misses_something_at(v, s);
   };
-  const bool is_clear = !may_miss_something_at(segment.from) && !may_miss_something_at(segment.to);
-  if (!is_clear || !lay_straight(s)) lay_through(s);
+  if (misses_something(segment.from) || misses_something(segment.to) || !lay_straight(s))
+    lay_through(s);
 }
 
 /// What lay() does where nothing is in doubt. If something is, the rest is left.
@@ -81,9 +82,11 @@ VertexId Triangulation::meet(EdgeId e, SegmentId s) {
     has_bends_ = true;
     return end;
   }
-  if (!can_split(e, *place)) return VertexId::none();
+  // Near 0 rounding may have bent the segments along e so much that s crosses them further on.
+  if (!is_boxed(point(from(e)), point(to(e)), *place) || !can_split(e, *place))
+    return VertexId::none();
   const VertexId v = split_edge_at(e, *place);
-  return settle_around(v) ? v : VertexId::none();
+  return settle_new(v) ? v : VertexId::none();
 }
 
 /// Where s crosses all segments along e, if that is one place.
@@ -104,7 +107,7 @@ std::optional<Point> Triangulation::common_crossing(EdgeId e, SegmentId s) const
 /// there by rounding alone; or whether it has to go through a vertex hardly beside this one.
 bool Triangulation::misses_something_at(VertexId v, SegmentId s) const {
   const bool is_end = ends_at(s, v);  // what ends there, too, does not cross s
-  const bool has_crowds = has_crowds_;
+  const bool is_crowded = (traits(v) & crowded) != 0;
   const Point place = point(v);
   const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
   const auto is_missed = [&](Point beside) {
@@ -118,7 +121,7 @@ bool Triangulation::misses_something_at(VertexId v, SegmentId s) const {
   const EdgeId first = edge(v);
   EdgeId e = first;
   do {
-    if (has_crowds && is_missed(point(to(e)))) return true;
+    if (is_crowded && is_missed(point(to(e)))) return true;
     if (is_constrained(e) && std::ranges::any_of(passages(e), is_missed_along)) return true;
     e = rotated(e);
   } while (e != first);
@@ -156,18 +159,15 @@ EdgeId Triangulation::connect(VertexId from, VertexId to, SegmentId s) {
 
 /// Adds a passage of s along e, in the direction of e.
 void Triangulation::mark(EdgeId e, SegmentId s) {
+  const EdgeId f = twin(e);
   touch(triangle(e));
-  touch(triangle(twin(e)));
-  join(e, twin(e), sets_.with(side(e).set, Passage(s, is_upward(e))));
+  touch(triangle(f));
+  const VertexId a = from(e);
+  const VertexId b = from(f);
+  join(e, f, sets_.with(side(e).set, Passage(s, point(a) < point(b))));
   const Segment& segment = this->segment(s);
-  for (const VertexId v : {from(e), to(e)})
-    if (v != segment.from && v != segment.to) note_passed(v);
-}
-
-/// Notes that a segment goes through a vertex; that stays noted for as long as there is the vertex.
-void Triangulation::note_passed(VertexId v) {
-  if (v.index() >= passed_.size()) passed_.resize(points_.size());
-  passed_[v.index()] = 1;
+  for (const VertexId v : {a, b})
+    if (v != segment.from && v != segment.to) note(passed, v);
 }
 
 /// What is first in the way from one vertex to another, along the line from a to b that both are
@@ -339,7 +339,7 @@ VertexId Triangulation::snap(EdgeId e, Point place, SegmentId s) {
 
 /// Moves the passages of e to the two edges that join its ends through an apex beside it.
 void Triangulation::reroute(EdgeId e, VertexId through) {
-  note_passed(through);
+  note(passed, through);
   if (apex(e) != through) e = twin(e);
   const bool was_upward = is_upward(e);
   const PassageSet rerouted = side(e).set;

@@ -54,56 +54,6 @@ bool Triangulation::lead_through_apex(EdgeId e) {
   return true;
 }
 
-/// Leads through a vertex that is new what belongs there. Returns whether there was nothing, nor
-/// anything hardly beside it: if so, segments may have to be laid anew at the end of the edit.
-bool Triangulation::settle_around(VertexId v) {
-  const Point place = point(v);
-  const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
-  bool is_crowded = false;
-  const EdgeId first = edge(v);
-  EdgeId e = first;
-  Spoke spoke(place, point(to(e)));
-  do {
-    const EdgeId around = next(e);
-    const Point a = point(to(e));
-    const Point b = point(apex(e));
-    if (is_constrained(around) && is_boxed(a, b, place) && lead_through_apex(around)) {
-      settle_around(v);
-      return false;
-    }
-    const Spoke following(place, b);
-    if (!is_clear_of_crowds(spoke, following, near) &&
-        (is_crowding(a, b, place) || are_hardly_apart(place, a, crowded_rounding))) {
-      is_crowded = true;
-      has_crowds_ = has_crowds_ || is_crowding_between(a, b, place);
-    }
-    spoke = following;
-    e = rotated(e);
-  } while (e != first);
-  settle_pieces();
-  if (!is_crowded) return true;
-  settle_crowd(v);
-  return false;
-}
-
-/// Notes the segments along edges hardly beside a vertex that have to lead through it.
-void Triangulation::settle_crowd(VertexId v) {
-  gather_segments(v);
-  const std::vector<SegmentId> here = around_;
-  const Point place = point(v);
-  visit_near(
-      v, [&](VertexId w) { return are_hardly_apart(place, point(w)); },
-      [&](EdgeId e) { return is_hardly_beside(point(from(e)), point(to(e)), place, 2); },
-      [&](EdgeId e) {
-        for (const Passage passage : passages(e)) {
-          const SegmentId s = passage.segment();
-          const auto [a, b] = ends_of(s);
-          if (!std::ranges::binary_search(here, s) && !ends_at(s, v) && rounds_to(a, b, place))
-            crowded_.push_back(s);
-        }
-      });
-}
-
 /// Calls visit(edge) for the edges around v, and goes on around vertices that are near and beyond
 /// edges that are.
 template <class IsNearVertex, class IsNearEdge, class Visit>
@@ -130,6 +80,101 @@ void Triangulation::visit_near(VertexId v, IsNearVertex is_near_vertex, IsNearEd
     } while (e != first);
   }
   for (const VertexId w : crowd_) is_in_crowd_[w.index()] = false;
+}
+
+/// Leads through a vertex that is new what belongs there. Returns whether there was nothing, nor
+/// anything hardly beside it: if so, segments may have to be laid anew at the end of the edit.
+bool Triangulation::settle_around(VertexId v, bool may_be_crowded) {
+  if (lead_others_through(v)) {
+    settle_around(v);
+    return false;
+  }
+  const bool is_crowded = may_be_crowded && find_crowds(v);
+  settle_pieces();
+  if (is_crowded) settle_crowd(v);
+  return !is_crowded;
+}
+
+/// Leads through a vertex the first of the edges around it that has something which belongs there.
+bool Triangulation::lead_others_through(VertexId v) {
+  const Point place = point(v);
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    const EdgeId around = next(e);
+    if (is_constrained(around) && is_boxed(point(from(around)), point(to(around)), place) &&
+        lead_through_apex(around))
+      return true;
+    e = rotated(e);
+  } while (e != first);
+  return false;
+}
+
+/// Whether a vertex that is new is hardly beside something. If it is hardly apart from others, that
+/// is noted.
+bool Triangulation::find_crowds(VertexId v) {
+  const Point place = point(v);
+  const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
+  bool is_crowded = false;
+  bool is_between = false;
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  Spoke spoke(place, point(to(e)));
+  do {
+    const Point a = point(to(e));
+    const Point b = point(apex(e));
+    const Spoke following(place, b);
+    if (!is_clear_of_crowds(spoke, following, near)) {
+      const bool is_apart = !are_hardly_apart(place, a, crowded_rounding);
+      const bool is_finite = to(e) != infinite && apex(e) != infinite;
+      if (!is_apart || (is_finite && is_crowding(a, b, place))) {
+        is_crowded = true;
+        is_between = is_between || !is_apart || is_crowding_between(a, b, place);
+      }
+    }
+    spoke = following;
+    e = rotated(e);
+  } while (e != first);
+  if (is_between) note_crowd(v);
+  return is_crowded;
+}
+
+/// Notes which vertices are hardly apart from a new one. The straight way to each of them crosses
+/// nothing but edges that are as near.
+void Triangulation::note_crowd(VertexId v) {
+  const Point place = point(v);
+  visit_near(
+      v, [](VertexId) { return false; },
+      [&](EdgeId e) {
+        const Point a = point(from(e));
+        const Point b = point(to(e));
+        return is_crowding(a, b, place) && is_crowding_between(a, b, place);
+      },
+      [&](EdgeId e) {
+        const VertexId w = to(e);
+        if (w == v || w == infinite || !are_hardly_apart(place, point(w), 2 * crowded_rounding))
+          return;
+        note(crowded, v);
+        note(crowded, w);
+      });
+}
+
+/// Notes the segments along edges hardly beside a vertex that have to lead through it.
+void Triangulation::settle_crowd(VertexId v) {
+  gather_segments(v);
+  const std::vector<SegmentId> here = around_;
+  const Point place = point(v);
+  visit_near(
+      v, [&](VertexId w) { return are_hardly_apart(place, point(w)); },
+      [&](EdgeId e) { return is_hardly_beside(point(from(e)), point(to(e)), place, 2); },
+      [&](EdgeId e) {
+        for (const Passage passage : passages(e)) {
+          const SegmentId s = passage.segment();
+          const auto [a, b] = ends_of(s);
+          if (!std::ranges::binary_search(here, s) && !ends_at(s, v) && rounds_to(a, b, place))
+            crowded_.push_back(s);
+        }
+      });
 }
 
 /// Lays those anew; not one after the other, as each is in the way of the next until it leads
@@ -159,11 +204,17 @@ void Triangulation::take_off_crowded() {
 bool Triangulation::settle_piece(EdgeId e, SegmentId s) {
   const Point a = point(segment(s).from);
   const Point b = point(segment(s).to);
-  const double reach = std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)});
+  const EdgeId f = twin(e);
+  const Point start = point(from(e));
+  const Point end = point(from(f));
+  const Strip strip(start, end, a.x * a.x + a.y * a.y + b.x * b.x + b.y * b.y);
   const auto is_clear = [&](VertexId v) {
-    return v == infinite || is_clearly_beside(point(from(e)), point(to(e)), point(v), reach);
+    return strip.is_far_from(point(v)) || v == infinite ||
+           is_clearly_beside(
+               start, end, point(v),
+               std::max({std::abs(a.x), std::abs(a.y), std::abs(b.x), std::abs(b.y)}));
   };
-  if (is_clear(apex(e)) && is_clear(apex(twin(e)))) return true;
+  if (is_clear(apex(e)) && is_clear(apex(f))) return true;
   if (lead_through_apex(e) || lead_through_apex(twin(e))) {
     settle_pieces();
     return false;
@@ -377,6 +428,7 @@ VertexId Triangulation::detour(EdgeId e, VertexId at, VertexId goal, SegmentId s
   if (!nearest.is_none()) return nearest;
   if (!can_split(e, place)) return snap(e, place, s);
   const VertexId v = split_edge_at(e, place);
+  note_crowd(v);
   loosen(v);
   return v;
 }

@@ -22,8 +22,7 @@ class Persistence::Examination {
  public:
   static void of_all(Triangulation& mesh) {
     mesh.has_bends_ = true;  // for all that is known
-    mesh.has_crowds_ = true;
-    mesh.passed_.assign(mesh.points_.size(), 1);
+    mesh.traits_.assign(mesh.points_.size(), Triangulation::passed | Triangulation::crowded);
     examine_constraints(mesh);
     examine_blocks(mesh);
     examine_vertices(mesh);

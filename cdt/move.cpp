@@ -142,8 +142,8 @@ bool Triangulation::is_plain(SegmentId s) const {
          passages(e)[0].segment() == s;
 }
 
-/// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise, and no
-/// segment beside it has to lead through it.
+/// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise, no
+/// segment beside it has to lead through it and no vertex is hardly apart.
 bool Triangulation::move_vertex(VertexId v, Point p) {
   if (uses_[v.index()] != 1) return false;
   const EdgeId first = edge(v);

@@ -105,21 +105,36 @@ inline bool rounds_to(Point a, Point b, Point p) {
   return std::abs(left - right) <= bound && detail::rounds_to_exact(a, b, p);
 }
 
-inline int in_circle(Point a, Point b, Point c, Point d) {
-  const double ax = a.x - d.x, ay = a.y - d.y, a_lift = ax * ax + ay * ay;
-  const double bx = b.x - d.x, by = b.y - d.y, b_lift = bx * bx + by * by;
-  const double cx = c.x - d.x, cy = c.y - d.y, c_lift = cx * cx + cy * cy;
-  const double bc = bx * cy, cb = cx * by;
-  const double ca = cx * ay, ac = ax * cy;
-  const double ab = ax * by, ba = bx * ay;
-  const double determinant = a_lift * (bc - cb) + b_lift * (ca - ac) + c_lift * (ab - ba);
-  const double magnitude = a_lift * (std::abs(bc) + std::abs(cb)) +
-                           b_lift * (std::abs(ca) + std::abs(ac)) +
-                           c_lift * (std::abs(ab) + std::abs(ba));
+namespace detail {
+
+/// The way to a point, and the square of its length.
+struct Sight {
+  double x, y, lift;
+  Sight(Point from, Point to) : x(to.x - from.x), y(to.y - from.y), lift(x * x + y * y) {}
+};
+
+/// in_circle of three points and the one that they are seen from; 0 where only exact arithmetic can
+/// tell, and where one of them is at infinity.
+inline int in_circle_filter(const Sight& a, const Sight& b, const Sight& c) {
+  const double bc = b.x * c.y, cb = c.x * b.y;
+  const double ca = c.x * a.y, ac = a.x * c.y;
+  const double ab = a.x * b.y, ba = b.x * a.y;
+  const double determinant = a.lift * (bc - cb) + b.lift * (ca - ac) + c.lift * (ab - ba);
+  const double magnitude = a.lift * (std::abs(bc) + std::abs(cb)) +
+                           b.lift * (std::abs(ca) + std::abs(ac)) +
+                           c.lift * (std::abs(ab) + std::abs(ba));
   const double bound = detail::in_circle_bound * magnitude;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;
-  return detail::in_circle_exact(a, b, c, d);
+  return 0;
+}
+
+}  // namespace detail
+
+inline int in_circle(Point a, Point b, Point c, Point d) {
+  using detail::Sight;
+  const int side = detail::in_circle_filter(Sight(d, a), Sight(d, b), Sight(d, c));
+  return side != 0 ? side : detail::in_circle_exact(a, b, c, d);
 }
 
 inline int in_circle_perturbed(Point a, Point b, Point c, Point d) {

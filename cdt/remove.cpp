@@ -269,8 +269,8 @@ void Triangulation::tidy_snaps() {
   keep_each_once(snaps_, [](const Snap& snap) { return std::pair(snap.segment, snap.place); });
 }
 
-/// Lays the segments again that rounding led astray near the edited places: the reason may be gone.
-/// `known_snaps` were there before the edit.
+/// Lays the segments again that rounding led astray near the edited places, or that meet them
+/// anywhere: the reason may be gone. `known_snaps` were there before the edit.
 void Triangulation::straighten(std::size_t known_snaps) {
   if (edited_.empty()) return;
   constexpr double nearly = 64;
@@ -282,18 +282,28 @@ void Triangulation::straighten(std::size_t known_snaps) {
   const double slack = nearly * doubtful_rounding *
                        std::max({std::abs(box.low.x), std::abs(box.low.y), std::abs(box.high.x),
                                  std::abs(box.high.y)});
+  const auto is_beyond = [&](Point low, Point high) {
+    return high.x < box.low.x - slack || low.x > box.high.x + slack || high.y < box.low.y - slack ||
+           low.y > box.high.y + slack;
+  };
   const auto is_near = [&](Point place) {
-    if (place.x < box.low.x - slack || place.x > box.high.x + slack ||
-        place.y < box.low.y - slack || place.y > box.high.y + slack)
-      return false;
+    if (is_beyond(place, place)) return false;
     return std::ranges::any_of(edited_, [&](const auto& ends) {
       const auto& [a, b] = ends;
       if (a == b) return are_hardly_apart(a, place);
       return is_hardly_beside(a, b, place, nearly);
     });
   };
+  const auto is_met = [&](SegmentId s) {
+    const auto [a, b] = ends_of(s);
+    if (is_beyond({a.x, std::min(a.y, b.y)}, {b.x, std::max(a.y, b.y)})) return false;
+    return std::ranges::any_of(edited_, [&, a = a, b = b](const auto& ends) {
+      return crosses(a, b, ends.first, ends.second) || is_hardly_beside(a, b, ends.first, nearly);
+    });
+  };
   for (std::size_t i = 0; i < known_snaps; ++i)
-    if (is_near(snaps_[i].place)) taken_off_.push_back(snaps_[i].segment);
+    if (is_near(snaps_[i].place) || is_met(snaps_[i].segment))
+      taken_off_.push_back(snaps_[i].segment);
   if (taken_off_.empty()) return;
   keep_each_once(taken_off_);
   for (std::size_t i = 0, known = taken_off_.size(); i < known; ++i)

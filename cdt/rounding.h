@@ -67,13 +67,41 @@ inline constexpr int most_detours = 32;
   return area > length * std::max(thin * longer, crowded_rounding * reach);
 }
 
-/// Whether p is left of the line through a and b, and not within rounding of it.
+/// What is_clearly_beside() an edge, told from fewer operations.
+class Strip {
+ public:
+  /// `reach`: a bound for the squares of coordinates.
+  Strip(Point a, Point b, double reach)
+      : start_(a),
+        way_{b.x - a.x, b.y - a.y},
+        length_(way_.x * way_.x + way_.y * way_.y),
+        near_(crowded_rounding * crowded_rounding * reach) {}
+
+  /// Where it says no, or there is infinity, nothing is known. In squares: a length in steps along
+  /// the axes is at most twice that as the crow flies, and the way from b at most twice those from
+  /// a and along ab.
+  [[nodiscard]] bool is_far_from(Point p) const {
+    const double x = p.x - start_.x;
+    const double y = p.y - start_.y;
+    const double area = way_.x * y - way_.y * x;
+    return area * area > length_ * (9 * thin * thin * (length_ + x * x + y * y) + 3 * near_);
+  }
+
+ private:
+  Point start_;
+  Point way_;
+  double length_;
+  double near_;
+};
+
+/// Whether p is left of the line through a and b, and not crowding it.
 [[nodiscard]] inline bool is_clearly_left(Point a, Point b, Point p) {
   const double left = (a.x - p.x) * (b.y - p.y);
   const double right = (a.y - p.y) * (b.x - p.x);
   const double reach = std::max(std::abs(p.x), std::abs(p.y));
-  return left - right > detail::orient_bound * (std::abs(left) + std::abs(right)) +
-                            doubtful_rounding * reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y));
+  return left - right >
+         detail::orient_bound * (std::abs(left) + std::abs(right)) +
+             2 * crowded_rounding * reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y));
 }
 
 /// Whether p is beside the segment ab, between its ends, and so near that rounding a and b may have
@@ -116,6 +144,17 @@ struct Spoke {
 [[nodiscard]] inline bool is_clear_of_crowds(const Spoke& a, const Spoke& b, double near) {
   return std::abs(a.x * b.y - a.y * b.x) >
          2.5 * near * (a.length + b.length) + 2 * detail::orient_bound * a.length * b.length;
+}
+
+/// The same from squares. With s for the sum of both, |a| + |b| is at most 2 sqrt(s) in steps along
+/// the axes, and |a| |b| at most s. So the bound above is less than 5 n sqrt(s) + 10 u s, with n
+/// for `near` and u for detail::rounding, and its square than 50 n^2 s + 200 u^2 s^2.
+[[nodiscard]] inline bool is_clear_of_crowds(const detail::Sight& a, const detail::Sight& b,
+                                             double near) {
+  constexpr double by_squares = 220 * detail::rounding * detail::rounding;
+  const double area = a.x * b.y - a.y * b.x;
+  const double squares = a.lift + b.lift;
+  return area * area > squares * (52 * near * near + by_squares * squares);
 }
 
 /// Whether p, which is_crowding() the edge ab, does so between a and b or beside them, so that

@@ -27,7 +27,7 @@ void Triangulation::clear() {
   points_.assign(1, Point{infinity, infinity});
   vertex_edges_.assign(1, EdgeId::none());
   uses_.assign(1, unused);
-  passed_.clear();
+  traits_.clear();
   constraints_.clear();
   without_length_.clear();
   segments_.clear();
@@ -46,7 +46,8 @@ void Triangulation::clear() {
   reserved_ = VertexId::none();
   is_flat_ = true;
   has_bends_ = false;
-  has_crowds_ = false;
+  is_surrounded_ = true;
+  is_crowded_ = true;
 }
 
 void Triangulation::reserve(std::size_t vertices) {
@@ -128,9 +129,9 @@ std::optional<VertexId> Triangulation::split(EdgeId e, Point point) {
   if (!can_split(e, point)) return {};
   begin_edit();
   has_bends_ = true;
-  has_crowds_ = true;
   doubt_others_on(e, point);
   const VertexId v = split_at({Location::Kind::edge, e}, point);
+  note_crowd(v);
   ++uses_[v.index()];
   end_edit();
   return v;
@@ -145,8 +146,8 @@ std::optional<VertexId> Triangulation::split(TriangleId t, Point point) {
     if (orient(this->point(from(e)), this->point(to(e)), point) <= 0) return {};
   }
   begin_edit();
-  has_crowds_ = true;
   const VertexId v = split_at({Location::Kind::triangle, edge(t)}, point);
+  note_crowd(v);
   ++uses_[v.index()];
   end_edit();
   return v;

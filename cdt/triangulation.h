@@ -330,6 +330,11 @@ class Triangulation {
     std::uint32_t corner;
     friend auto operator<=>(const Ear&, const Ear&) = default;
   };
+  /// What may be so of a vertex; noted for as long as there is the vertex.
+  enum Trait : std::uint8_t {
+    passed = 1,   // a segment that does not end there goes through
+    crowded = 2,  // there is another vertex hardly apart
+  };
   struct Touch {
     TriangleId triangle;
     bool was_there;
@@ -413,11 +418,12 @@ class Triangulation {
   void split_edge(EdgeId e, VertexId v);
   [[nodiscard]] VertexId split_edge_at(EdgeId e, Point place);
   void fan_out(VertexId v);
+  [[nodiscard]] bool is_crowded_by(EdgeId e, Point place) const;
   void flip_away(EdgeId e, VertexId v, VertexId d);
   [[nodiscard]] bool can_split(EdgeId e, Point point) const;
   [[nodiscard]] bool should_flip(VertexId a, VertexId b, VertexId c, VertexId d) const;
   void flip(EdgeId e);
-  void restore_delaunay();
+  bool restore_delaunay();
   void push_star(VertexId v);
 
   // locate.cpp
@@ -444,9 +450,12 @@ class Triangulation {
   [[nodiscard]] VertexId snap(EdgeId e, Point place, SegmentId s);
   void reroute(EdgeId e, VertexId through);
   void mark(EdgeId e, SegmentId s);
-  void note_passed(VertexId v);
-  [[nodiscard]] bool may_be_passed(VertexId v) const {
-    return v.index() < passed_.size() && passed_[v.index()] != 0;
+  void note(Trait trait, VertexId v) {
+    if (v.index() >= traits_.size()) traits_.resize(points_.size());
+    traits_[v.index()] |= trait;
+  }
+  [[nodiscard]] unsigned traits(VertexId v) const {
+    return v.index() < traits_.size() ? traits_[v.index()] : 0;
   }
   void follow_corridor(VertexId from, VertexId to, SegmentId s);
   [[nodiscard]] double along(SegmentId s, VertexId v) const;
@@ -458,13 +467,19 @@ class Triangulation {
   // course.cpp: the vertices that a segment leads through
   [[nodiscard]] bool belongs_at_apex(EdgeId e, Passage passage);
   bool lead_through_apex(EdgeId e);
-  bool settle_around(VertexId v);
+  bool settle_new(VertexId v) {
+    return !(is_surrounded_ || is_crowded_) || settle_around(v, is_crowded_);
+  }
+  bool settle_around(VertexId v, bool may_be_crowded = true);
+  [[nodiscard]] bool lead_others_through(VertexId v);
+  [[nodiscard]] bool find_crowds(VertexId v);
+  void note_crowd(VertexId v);
   void settle_crowd(VertexId v);
   template <class IsNearVertex, class IsNearEdge, class Visit>
   void visit_near(VertexId v, IsNearVertex is_near_vertex, IsNearEdge is_near_edge, Visit visit);
   void lay_crowded();
   void take_off_crowded();
-  bool settle_piece(EdgeId e, SegmentId s);
+  [[nodiscard]] bool settle_piece(EdgeId e, SegmentId s);
   [[nodiscard]] bool hides_something(EdgeId e) const;
   void settle_pieces();
   void lay_through(SegmentId s, bool can_others_wait = true);
@@ -563,13 +578,13 @@ class Triangulation {
   Locator locator_;
   EdgeId last_;
   std::size_t vertex_count_ = 0;
-  VertexId reserved_;        // the number of the next vertex, where that is not the first free one
-  VertexId only_;            // the only vertex, while there is just one
-  std::size_t flips_ = 0;    // since insert_points() began
-  bool is_flat_ = true;      // no finite triangle yet: all vertices in one line
-  bool has_bends_ = false;   // segments may lead through points of others that are not on them
-  bool has_crowds_ = false;  // vertices may be hardly apart
-  bool is_surrounded_ = true;  // what fan_out() came by: constrained edges, vertices hardly apart
+  VertexId reserved_;       // the number of the next vertex, where that is not the first free one
+  VertexId only_;           // the only vertex, while there is just one
+  std::size_t flips_ = 0;   // since insert_points() began
+  bool is_flat_ = true;     // no finite triangle yet: all vertices in one line
+  bool has_bends_ = false;  // segments may lead through points of others that are not on them
+  bool is_surrounded_ = true;  // what fan_out() came by: constrained edges,
+  bool is_crowded_ = true;     // vertices or edges hardly apart from the new one
   bool is_recording_ = false;
   Changes changes_;
 
@@ -582,7 +597,7 @@ class Triangulation {
   std::vector<VertexId> stops_;
   std::vector<VertexId> crowd_;
   std::vector<char> is_in_crowd_;
-  std::vector<char> passed_;  // by vertex: whether a segment that does not end there goes through
+  std::vector<std::uint8_t> traits_;  // by vertex; as long as needed
   std::vector<SegmentId> crowded_;
   std::vector<Point> crossings_;
   std::vector<std::pair<VertexId, VertexId>> unsettled_;  // pieces, from one end to the other

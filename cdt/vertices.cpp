@@ -112,7 +112,7 @@ void Triangulation::free_vertex(VertexId v) {
   points_[v.index()] = point(infinite);
   vertex_edges_[v.index()] = EdgeId::none();
   uses_[v.index()] = unused;
-  if (v.index() < passed_.size()) passed_[v.index()] = 0;
+  if (v.index() < traits_.size()) traits_[v.index()] = 0;
   free_vertices_.push_back(v);
 }
 
@@ -143,6 +143,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
       return v;
     }
     start(only_, v);
+    note_crowd(v);
     last_ = edge(v);
     return v;
   }
@@ -152,7 +153,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
     doubt_others_on(place.edge, point);
   }
   const VertexId v = split_at(place, point);
-  if (epsilon_ == 0 && is_surrounded_) settle_around(v);
+  if (epsilon_ == 0) settle_new(v);
   last_ = edge(v);
   locator_.add(v, point);
   return v;
@@ -234,6 +235,7 @@ void Triangulation::start(VertexId a, VertexId b) {
   vertex_edges_[a.index()] = there;
   vertex_edges_[infinite.index()] = prev(there);
   is_flat_ = true;
+  is_crowded_ = true;  // for all that is known
 }
 
 /// While all vertices are in one line: one more beyond the end that `end` leaves to infinity.
@@ -244,6 +246,7 @@ void Triangulation::extend(EdgeId end, VertexId v) {
   touch(triangle(end_back));
   join(prev(there), end);
   join(next(back), end_back);
+  is_crowded_ = true;  // for all that is known
 }
 
 /// Every triangle that a split makes has the new vertex at corner 2, and the edge that may need a
@@ -278,7 +281,7 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
   Side sides[4] = {side(old[0]), side(old[1]), side(old[2]), side(old[3])};
   const PassageSet set = side(e).set;
   const bool was_upward = !set.is_empty() && is_upward(e);
-  if (!set.is_empty()) note_passed(v);
+  if (!set.is_empty()) note(passed, v);
 
   // Around v, clockwise: (c, a, v), (b, c, v), (d, b, v), (a, d, v).
   const VertexId starts[4] = {c, b, d, a};
@@ -321,40 +324,50 @@ inline bool Triangulation::should_flip(VertexId a, VertexId b, VertexId c, Verte
 
 /// Flips the edges opposite to the new vertex v until they are Delaunay (Lawson): once around it,
 /// staying where an edge was flipped, as another is there then. In every triangle the edge is at
-/// corner 0, v at corner 2; flips keep it so.
+/// corner 0, v at corner 2; flips keep it so. Its neighbours are looked at from v, each once.
 void Triangulation::fan_out(VertexId v) {
-  TriangleId t = triangle(edge(v));
-  const VertexId first = from(edge(t, 0));
+  using detail::Sight;
   const Point place = point(v);
   const double near = crowded_rounding * std::max(std::abs(place.x), std::abs(place.y));
-  const bool has_segments = !segments_.empty();
-  bool is_surrounded = false;
-  for (;;) {
+  TriangleId t = triangle(edge(v));
+  const VertexId first = from(edge(t, 0));
+  VertexId b = from(edge(t, 1));
+  Sight to_a(place, point(first));
+  Sight to_b(place, point(b));
+  is_surrounded_ = false;
+  is_crowded_ = false;
+  for (VertexId a = first;;) {
     const EdgeId e = edge(t, 0);
     if (is_constrained(e)) {
-      is_surrounded = true;
+      is_surrounded_ |= to_a.x * to_b.x <= 0 && to_a.y * to_b.y <= 0;  // as is_boxed()
     } else {
-      const EdgeId f = twin(e);
-      const VertexId d = apex(f);
-      if (should_flip(from(e), from(f), v, d)) {
+      const VertexId d = apex(twin(e));
+      const Sight to_d(place, point(d));
+      const int side = detail::in_circle_filter(to_b, to_a, to_d);  // the same as of a, b, v and d
+      if (side > 0 || (side == 0 && should_flip(a, b, v, d))) {
         flip_away(e, v, d);
+        b = d;
+        to_b = to_d;
         continue;
       }
     }
-    if (!is_surrounded) {  // settle_around() looks at all of them
-      const Point a = point(from(e));
-      if (!has_segments) {
-        is_surrounded = are_hardly_apart(place, a, crowded_rounding);
-      } else {
-        const Point b = point(edges_[e.index() + 1].from);
-        is_surrounded =
-            !is_clear_of_crowds({place, a}, {place, b}, near) && is_crowding(a, b, place);
-      }
-    }
+    if (!is_clear_of_crowds(to_a, to_b, near)) is_crowded_ |= is_crowded_by(e, place);
+    if (b == first) break;
     t = triangle(twin(edge(t, 1)));
-    if (from(edge(t, 0)) == first) break;
+    a = b;
+    to_a = to_b;
+    b = from(edge(t, 1));
+    to_b = Sight(place, point(b));
   }
-  is_surrounded_ = is_surrounded;
+}
+
+/// Whether a new vertex opposite to e is so near to it that others may be hardly beside. Without
+/// segments only vertices matter.
+bool Triangulation::is_crowded_by(EdgeId e, Point place) const {
+  const Point a = point(from(e));
+  if (segments_.empty() || from(e) == infinite || to(e) == infinite)
+    return are_hardly_apart(place, a, crowded_rounding);
+  return is_crowding(a, point(to(e)), place);
 }
 
 /// Turns the edge e between the triangles (a, b, v) and (b, a, d) so that it joins v and d.
@@ -391,7 +404,8 @@ VertexId Triangulation::split_edge_at(EdgeId e, Point place) {
   if (!is_straight) {
     is_flat_ = false;
     push_star(v);
-    restore_delaunay();
+    // What fan_out() has seen holds for as long as nothing around has changed.
+    if (restore_delaunay()) is_surrounded_ = is_crowded_ = true;
   }
   return v;
 }
@@ -437,8 +451,10 @@ void Triangulation::flip(EdgeId e) {
   vertex_edges_[d.index()] = dc;
 }
 
-/// Flips until every edge that suspects_ leads to is constrained Delaunay.
-void Triangulation::restore_delaunay() {
+/// Flips until every edge that suspects_ leads to is constrained Delaunay. Returns whether there
+/// was one to flip.
+bool Triangulation::restore_delaunay() {
+  bool has_flipped = false;
   while (!suspects_.empty()) {
     const EdgeId e = suspects_.back();
     suspects_.pop_back();
@@ -446,8 +462,10 @@ void Triangulation::restore_delaunay() {
     const EdgeId f = twin(e);
     if (!should_flip(from(e), from(f), apex(e), apex(f))) continue;
     flip(e);
+    has_flipped = true;
     for (const EdgeId side : {e, f, prev(e), prev(f)}) suspects_.push_back(side);
   }
+  return has_flipped;
 }
 
 /// Puts the edges at a vertex and those around it on the list of suspects.

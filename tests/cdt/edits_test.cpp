@@ -58,6 +58,47 @@ INSTANTIATE_TEST_SUITE_P(, Edits, testing::ValuesIn(all_grounds), [](const auto&
   return name;
 });
 
+// Two segments cross a third one at places that differ in their last digits only. By the first,
+// that one is bent so much that the other comes to the wrong one of its two halves.
+TEST(Crossings, KeepTheOrderOfCoordinatesWhereAnotherHasBentTheSegment) {
+  Tally tally;
+  EXPECT_EQ(verdict(read_script("insert 0 open 2.0000000000000515 8e-14 "
+                                "4.52e-14 1.0000000000000884 1.0000000000000666 1.0000000000000078 "
+                                "2.0000000000000004 4.83e-14 5.73e-14 2.000000000000031"),
+                    {1, 100}, tally),
+            "");
+}
+
+TEST(Crossings, KeepTheOrderOfCoordinatesWhereAMovedSegmentIsAlmostParallel) {
+  Tally tally;
+  EXPECT_EQ(verdict(read_script("insert 0 open 80 240\n"
+                                "insert 1 closed 6.800000000000001e-15 -2.3999999999999984e-15 "
+                                "3.3999999999999995 -1.2000000000000004 "
+                                "-1.7000000000000008e-15 5.999999999999994e-16\n"
+                                "move 0 0 -1.4000000000000003e-15 113.33333333333344 "
+                                "-39.999999999999964\n"
+                                "translate 0 -2.3499999999999976e-15 3.000000000000001e-16"),
+                    {1, 100}, tally),
+            "");
+}
+
+// A crossing has bent the segment so that it had to lead through (0, 0), which is not near there.
+TEST(Snaps, GoWithTheCrossingThatMadeThem) {
+  Tally tally;
+  EXPECT_EQ(verdict(read_script("insert 0 open -2.3999999999999972 -7.199999999999995\n"
+                                "move 0 -1.799999999999999 -5.400000000000002 "
+                                "2.3999999999999988e-15 7.200000000000003e-15\n"
+                                "insert 1 closed -2.400000000000001 -7.199999999999994\n"
+                                "move 1 -63.4 14.5 -12.6 -26.1 -40.8 32.5 -40.8 -32.5 -12.6 26.1\n"
+                                "remove 1\n"
+                                "insert 2 open 1.2000000000000006e-15 3.5999999999999985e-15 "
+                                "0 1.4000000000000007e-15 2.400000000000004 7.200000000000006\n"
+                                "insert 3 closed 0 0\n"
+                                "remove 2"),
+                    {1, 100}, tally),
+            "");
+}
+
 /// The number of edits of the long run: `ctest -L soak` sets it.
 std::size_t soak_edits() {
   const char* edits = std::getenv("LOFT_SOAK_EDITS");

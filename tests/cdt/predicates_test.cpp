@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "cdt/expansion.h"
+#include "cdt/rounding.h"
 
 namespace loft::cdt {
 namespace {
@@ -398,6 +399,37 @@ TEST(Intersection, OfAxesIsPositiveZero) {
   const Point origin = intersection({-1, 0}, {1, 0}, {0, 1}, {0, -1});
   EXPECT_EQ(origin, (Point{0, 0}));
   EXPECT_FALSE(std::signbit(origin.x) || std::signbit(origin.y));
+}
+
+// Points beside an edge at all distances, a thousand last places and less to far away.
+TEST(Rounding, IsRuledOutInShortOnlyWhereTheWholeTestDoesSo) {
+  std::mt19937_64 random(20261128);
+  std::uniform_real_distribution<double> somewhere(-3, 3);
+  std::uniform_real_distribution<double> exponent(-16, 0);
+  int clear = 0, far = 0;
+  constexpr int tries = 20'000;
+  for (int i = 0; i < tries; ++i) {
+    const Point a{somewhere(random), somewhere(random)};
+    const Point b{somewhere(random), somewhere(random)};
+    const double along = somewhere(random);
+    const double aside = std::pow(10, exponent(random));
+    const Point p{a.x + along * (b.x - a.x) - aside * (b.y - a.y),
+                  a.y + along * (b.y - a.y) + aside * (b.x - a.x)};
+    const double near = crowded_rounding * std::max(std::abs(p.x), std::abs(p.y));
+    if (is_clear_of_crowds(detail::Sight(p, a), detail::Sight(p, b), near)) {
+      ++clear;
+      ASSERT_FALSE(is_crowding(a, b, p)) << a << b << p;
+      ASSERT_FALSE(are_hardly_apart(p, a, crowded_rounding)) << a << p;
+      ASSERT_FALSE(are_hardly_apart(p, b, crowded_rounding)) << b << p;
+    }
+    if (Strip(a, b, 18).is_far_from(p)) {
+      ++far;
+      ASSERT_TRUE(is_clearly_beside(a, b, p, 3)) << a << b << p;
+    }
+  }
+  EXPECT_GT(clear, tries / 2);
+  EXPECT_LT(clear, tries * 9 / 10);
+  EXPECT_GT(far, tries / 20);
 }
 
 }  // namespace

@@ -74,6 +74,20 @@ TEST(Reference, LeadsThroughWhatAPointOfASegmentRoundsTo) {
   EXPECT_EQ(picture.lines.size(), 2U);
 }
 
+// Near 0 the segment is at y = 1.48e-16, its chain, which leads through what it rounds to at x = 3,
+// at 1.11e-16.
+TEST(Reference, HasNoAnswerWhereAVertexIsBetweenASegmentAndItsChain) {
+  const auto is_embeddable = [](double y) {
+    const std::vector<Outline> outlines = {{{{-3, -1}, {6, 2.0000000000000004}}, open},
+                                           {{{3, 1.0000000000000002}}, open},
+                                           {{{0, y}}, open}};
+    return Reference(outlines).is_embeddable();
+  };
+  EXPECT_TRUE(is_embeddable(1e-16));
+  EXPECT_FALSE(is_embeddable(1.3e-16));
+  EXPECT_TRUE(is_embeddable(2e-16));
+}
+
 TEST(Reference, CoversTheHullWithCounterClockwiseTriangles) {
   for (const Ground ground : {Ground::grid_8, Ground::grid_4, Ground::decimals}) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
