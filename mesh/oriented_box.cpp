@@ -10,8 +10,6 @@ namespace loft {
 
 namespace {
 
-constexpr std::array<Vec3, 3> frame_of_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-
 /// In its length: a triangle of less height is thin.
 constexpr double thin = 0.25;
 /// In lengths of what it holds: a larger box need not be turned, as what asks for it is no larger.
@@ -108,6 +106,22 @@ bool TurnedBox::is_apart(const Box3& around, const TurnedBox& turned, const Box3
     if (middle - half > high_[i] || middle + half < low_[i]) return true;
   }
   return false;
+}
+
+bool TurnedBox::passes(const Box3& around, const TurnedBox& turned, const Box3& other) const {
+  const Vec3 way = cross(axes_[0], turned.axes_[0]);
+  const double slack = 4 * rounding * (largest(around) + largest(other));
+  double middle = 0;  // of the other one, from that of this one
+  double half = slack;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double own = dot(way, axes_[i]);
+    const double others = dot(way, turned.axes_[i]);
+    middle += (others * (turned.low_[i] + turned.high_[i]) - own * (low_[i] + high_[i])) / 2;
+    half += (std::abs(others) * (turned.high_[i] - turned.low_[i]) +
+             std::abs(own) * (high_[i] - low_[i])) /
+            2;
+  }
+  return std::abs(middle) > half;
 }
 
 bool TurnedBox::is_apart(const Box3& around, const Corners& triangle, const Box3& other) const {

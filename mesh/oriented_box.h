@@ -11,6 +11,8 @@
 
 namespace loft {
 
+inline constexpr std::array<Vec3, 3> frame_of_axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+
 /// How a long thin triangle lies: unit vectors along its longest edge and across its face, and how
 /// long it is. All 0 of others, which boxes along the axes are good enough for.
 struct Lie {
@@ -52,11 +54,17 @@ class TurnedBox {
     for (double& x : high_) x += reach;
   }
 
+  /// Unit vectors at right angles.
+  [[nodiscard]] const std::array<Vec3, 3>& axes() const { return axes_; }
+
   /// Whether an axis of it shows that it is apart from a box along the axes, or from a turned one.
   /// `around`, `other`: boxes along the axes around what it, and the other one, holds.
   [[nodiscard]] bool is_apart(const Box3& around, const Box3& other) const;
   [[nodiscard]] bool is_apart(const Box3& around, const TurnedBox& turned, const Box3& other) const;
-  /// The same of a triangle.
+  /// Whether the axis at right angles to the first ones of both shows two turned ones apart: long
+  /// thin ones that pass each other.
+  [[nodiscard]] bool passes(const Box3& around, const TurnedBox& turned, const Box3& other) const;
+  /// Whether an axis of it shows that it is apart from a triangle.
   [[nodiscard]] bool is_apart(const Box3& around, const Corners& triangle, const Box3& other) const;
 
  private:

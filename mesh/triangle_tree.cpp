@@ -2,46 +2,55 @@
 #include "mesh/triangle_tree.h"
 
 #include <algorithm>
+#include <compare>
 #include <numeric>
 #include <utility>
 
+#include "mesh/spread.h"
+#include "mesh/vec3.h"
+
 namespace loft {
-
-namespace {
-
-/// Three times the middle of a triangle's corners, along an axis.
-double middle(const Corners& t, std::size_t axis) { return t[0][axis] + t[1][axis] + t[2][axis]; }
-
-}  // namespace
 
 /// Makes the nodes over some triangles.
 class TriangleTree::Builder {
+  /// A triangle is large that is longer than both.
+  static constexpr double times_median = 4;
+  static constexpr double share_of_box = 0.5;
+  /// Of so few that is not looked at.
+  static constexpr std::size_t few = most_size + 1;
+
  public:
   Builder(TriangleTree& tree, std::span<const std::uint32_t> numbers,
           std::span<const Corners> triangles)
       : tree_(tree), numbers_(numbers), triangles_(triangles), order_(numbers.size()) {
-    for (const Corners& t : triangles) lies_.push_back(lie_of(t));
+    for (const Corners& t : triangles) {
+      lies_.push_back(lie_of(t));
+      sizes_.push_back(size(box_around(t[0], t[1], t[2])));
+    }
     std::iota(order_.begin(), order_.end(), 0U);
   }
 
   /// Makes a node that of the triangles, with all below it.
-  void build(std::uint32_t node) { divide(node, order_); }
+  void build(std::uint32_t node) { divide(node, order_, false); }
 
  private:
-  void divide(std::uint32_t node, std::span<std::uint32_t> some) {
+  /// `is_sorted`: that they are of one size. Between two halvings that is looked at once, so that
+  /// the tree is not deep.
+  void divide(std::uint32_t node, std::span<std::uint32_t> some, bool is_sorted) {
     surround(node, some);
     if (some.size() <= first_size) {
       fill(node, some);
       return;
     }
-    const std::size_t half = halve(some);
+    const std::size_t apart = is_sorted || some.size() <= few ? 0 : put_large_first(node, some);
+    const std::size_t half = apart > 0 ? apart : halve(node, some);
     const auto first = static_cast<std::uint32_t>(tree_.nodes_.size());
     tree_.nodes_.resize(tree_.nodes_.size() + 2);
     tree_.nodes_[node].first = first;
     tree_.nodes_[first].parent = tree_.nodes_[first + 1].parent = node;
     tree_.nodes_[first].leaf = std::exchange(tree_.nodes_[node].leaf, none);
-    divide(first, some.first(half));
-    divide(first + 1, some.subspan(half));
+    divide(first, some.first(half), apart > 0);
+    divide(first + 1, some.subspan(half), apart > 0);
   }
 
   void fill(std::uint32_t node, std::span<const std::uint32_t> some) {
@@ -84,26 +93,61 @@ class TriangleTree::Builder {
     tree_.turned_[place] = turned;
   }
 
+  /// Puts those first that are much larger than most, and as large as the box by far: among the
+  /// others they would make every box that they are in as large as they are. How many they are.
+  std::size_t put_large_first(std::uint32_t node, std::span<std::uint32_t> some) {
+    some_sizes_.clear();
+    for (const std::uint32_t i : some) some_sizes_.push_back(sizes_[i]);
+    const auto median = some_sizes_.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+    std::ranges::nth_element(some_sizes_, median);
+    const double most =
+        std::max(times_median * *median, share_of_box * size(tree_.nodes_[node].box));
+    const auto others =
+        std::ranges::partition(some, [&](std::uint32_t i) { return sizes_[i] > most; });
+    return some.size() - others.size();
+  }
+
+  [[nodiscard]] static double size(const Box3& box) {
+    const Vec3 way = minus(box.high, box.low);
+    return std::max({way[0], way[1], way[2]});
+  }
+
   /// Puts those of one half of the space first; how many they are.
-  std::size_t halve(std::span<std::uint32_t> some) const {
-    Box3 middles = no_box;
-    for (const std::uint32_t i : some) {
-      const Corners& t = triangles_[i];
-      middles = extended(middles, {middle(t, 0), middle(t, 1), middle(t, 2)});
-    }
-    const std::size_t axis = longest_axis(middles);
+  std::size_t halve(std::uint32_t node, std::span<std::uint32_t> some) {
+    const Vec3 axis = best_axis(node, some);
+    keys_.clear();
+    for (const std::uint32_t i : some)
+      keys_.push_back({extent(triangles_[i], axis).twice_middle(), numbers_[i], i});
     const std::size_t half = some.size() / 2;
-    std::ranges::nth_element(
-        some, some.begin() + static_cast<std::ptrdiff_t>(half), {},
-        [&](std::uint32_t i) { return std::pair(middle(triangles_[i], axis), numbers_[i]); });
+    std::ranges::nth_element(keys_, keys_.begin() + static_cast<std::ptrdiff_t>(half));
+    for (std::size_t i = 0; i < some.size(); ++i) some[i] = keys_[i].place;
     return half;
   }
+
+  [[nodiscard]] Vec3 best_axis(std::uint32_t node, std::span<const std::uint32_t> some) const {
+    const std::uint32_t turned = tree_.nodes_[node].turned;
+    Spread spread(turned == none ? frame_of_axes : tree_.turned_[turned].axes());
+    for (const std::uint32_t i : some) spread.add(triangles_[i]);
+    return turned == none ? spread.longest() : spread.longest_in_widths();
+  }
+
+  /// Where a triangle is along an axis.
+  struct Key {
+    double middle;
+    std::uint32_t number;
+    std::uint32_t place;  // in triangles_
+
+    auto operator<=>(const Key&) const = default;
+  };
 
   TriangleTree& tree_;
   std::span<const std::uint32_t> numbers_;
   std::span<const Corners> triangles_;
   std::vector<Lie> lies_;             // of each triangle
   std::vector<std::uint32_t> order_;  // of the triangles
+  std::vector<Key> keys_;             // of those at hand
+  std::vector<double> sizes_;         // of each triangle
+  std::vector<double> some_sizes_;    // of those at hand
 };
 
 TriangleTree::TriangleTree(std::span<const Corners> triangles) : node_of_(triangles.size()) {

@@ -35,7 +35,7 @@ class TriangleTree {
   }
 
  private:
-  static constexpr std::size_t first_size = 8;  // of a leaf, at most, when it is made
+  static constexpr std::size_t first_size = 9;  // of a leaf, at most, when it is made
   static constexpr std::size_t most_size = 16;
   static constexpr std::uint32_t none = 0xffff'ffff;
 
