@@ -97,11 +97,22 @@ void Fan::collect(const Surface& surface, Surface::VertexHandle v) {
   } while (h != start && spokes_.size() <= largest_fan);
 }
 
+void Fan::find_swept(std::size_t target) {
+  swept_.clear();
+  for (std::size_t i = 0; i < faces(); ++i) {
+    if (vanishes(i, target)) continue;
+    const Corners face = moved(i, target);
+    const auto& [a, b, c] = face;
+    const int inside = orient3d(a, b, c, middle_);
+    if (inside != 0) swept_.push_back({face, inside, extended(box_around(a, b, c), middle_)});
+  }
+}
+
 bool Fan::sweeps(std::size_t target, const Corners& t) const {
   for (std::size_t corner = 0; corner < 3; ++corner) {
     const Vec3& p = t[corner];
     const std::size_t at = find(p);
-    if (at == size() ? sweeps_point(target, p)
+    if (at == size() ? sweeps_point(p)
                      : starts_inside(target, at, t[(corner + 1) % 3]) ||
                            starts_inside(target, at, t[(corner + 2) % 3]))
       return true;
@@ -129,15 +140,12 @@ std::size_t Fan::find(const Vec3& p) const {
   return i;
 }
 
-bool Fan::sweeps_point(std::size_t target, const Vec3& p) const {
-  for (std::size_t i = 0; i < faces(); ++i) {
-    if (vanishes(i, target)) continue;
-    const auto& [a, b, c] = moved(i, target);
-    const int inside = orient3d(a, b, c, middle_);
-    if (inside != 0 && orient3d(a, b, c, p) * inside >= 0 && is_in_cone(p, middle_, {a, b, c}))
-      return true;
-  }
-  return false;
+bool Fan::sweeps_point(const Vec3& p) const {
+  return std::ranges::any_of(swept_, [&](const Swept& swept) {
+    const auto& [a, b, c] = swept.face;
+    return boxes_meet({p, p}, swept.box) && orient3d(a, b, c, p) * swept.inside >= 0 &&
+           is_in_cone(p, middle_, swept.face);
+  });
 }
 
 bool Fan::starts_inside(std::size_t target, std::size_t i, const Vec3& p) const {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "mesh/box3.h"
 #include "mesh/predicates.h"
 #include "mesh/vec3.h"
 #include "reconstruct/surface.h"
@@ -44,9 +45,12 @@ class Fan {
     return i == target || after(i) == target;
   }
 
-  /// Whether the faces pass through some of a triangle outside the fan as the middle moves straight
-  /// into neighbour `target` (exact). The triangle meets neither the old faces nor the new ones, so
-  /// it is enough to know where its corners are, and where its edges start.
+  /// Finds what the faces pass through as the middle moves straight into neighbour `target`. Holds
+  /// until the next one.
+  void find_swept(std::size_t target);
+  /// Whether that is some of a triangle outside the fan (exact). The triangle meets neither the old
+  /// faces nor the new ones, so it is enough to know where its corners are, and where its edges
+  /// start.
   [[nodiscard]] bool sweeps(std::size_t target, const Corners& t) const;
 
   /// How far the map along the normal moves a point when the middle moves into neighbour `target`;
@@ -75,7 +79,12 @@ class Fan {
   [[nodiscard]] std::size_t find(const Vec3& p) const;
 
   /// Each face that stays sweeps a tetrahedron; flat ones sweep nothing.
-  [[nodiscard]] bool sweeps_point(std::size_t target, const Vec3& p) const;
+  struct Swept {
+    Corners face;
+    int inside;  // the side of the face on which the middle is
+    Box3 box;
+  };
+  [[nodiscard]] bool sweeps_point(const Vec3& p) const;
 
   /// Whether an edge from neighbour i to p, not along the rim of the fan, starts in what is swept.
   [[nodiscard]] bool starts_inside(std::size_t target, std::size_t i, const Vec3& p) const;
@@ -114,6 +123,7 @@ class Fan {
   double extent_ = 0;          // the farthest that a neighbour is, along an axis
   std::vector<Spoke> spokes_;  // counter-clockwise
   std::vector<Vec3> face_normals_;
+  std::vector<Swept> swept_;
 };
 
 }  // namespace loft

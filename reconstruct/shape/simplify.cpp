@@ -277,6 +277,7 @@ class Simplifier {
       for (std::size_t j = 0; j < i; ++j)
         if (triangles_meet(t, triangles_[j])) return false;
     }
+    fan_.find_swept(target);
     hull_.assign(1, fan_.middle());
     for (std::size_t i = 0; i < fan_.size(); ++i) hull_.push_back(fan_.place(i));
     return tree_.all_of_meeting(hull_, [&](std::uint32_t item, const Corners& other) {
