@@ -108,6 +108,22 @@ bool TurnedBox::is_apart(const Box3& around, const TurnedBox& turned, const Box3
   return false;
 }
 
+bool TurnedBox::passes(const Box3& around, const TurnedBox& turned, const Box3& other) const {
+  const Vec3 way = cross(axes_[0], turned.axes_[0]);
+  const double slack = 4 * rounding * (largest(around) + largest(other));
+  double middle = 0;  // of the other one, from that of this one
+  double half = slack;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const double own = dot(way, axes_[i]);
+    const double others = dot(way, turned.axes_[i]);
+    middle += (others * (turned.low_[i] + turned.high_[i]) - own * (low_[i] + high_[i])) / 2;
+    half += (std::abs(others) * (turned.high_[i] - turned.low_[i]) +
+             std::abs(own) * (high_[i] - low_[i])) /
+            2;
+  }
+  return std::abs(middle) > half;
+}
+
 bool TurnedBox::is_apart(const Box3& around, const Corners& triangle, const Box3& other) const {
   const double slack = rounding * (largest(around) + largest(other));
   for (std::size_t i = 0; i < 3; ++i) {

@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <span>
-#include <string>
 
 #include "mesh/box3.h"
 #include "mesh/predicates.h"
@@ -63,19 +61,11 @@ class TurnedBox {
   /// `around`, `other`: boxes along the axes around what it, and the other one, holds.
   [[nodiscard]] bool is_apart(const Box3& around, const Box3& other) const;
   [[nodiscard]] bool is_apart(const Box3& around, const TurnedBox& turned, const Box3& other) const;
-  /// The same of a triangle.
+  /// Whether the axis at right angles to the first ones of both shows two turned ones apart: long
+  /// thin ones that pass each other.
+  [[nodiscard]] bool passes(const Box3& around, const TurnedBox& turned, const Box3& other) const;
+  /// Whether an axis of it shows that it is apart from a triangle.
   [[nodiscard]] bool is_apart(const Box3& around, const Corners& triangle, const Box3& other) const;
-
-  std::string show() const {
-    std::string r;
-    char b[200];
-    for (int i = 0; i < 3; ++i) {
-      snprintf(b, 200, "(%.3f %.3f %.3f)*%.4f ", axes_[i][0], axes_[i][1], axes_[i][2],
-               high_[i] - low_[i]);
-      r += b;
-    }
-    return r;
-  }
 
  private:
   std::array<Vec3, 3> axes_{};  // unit vectors at right angles

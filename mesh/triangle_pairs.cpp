@@ -5,6 +5,7 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/spread.h"
 #include "mesh/vec3.h"
 
 namespace loft {
@@ -19,10 +20,6 @@ constexpr std::uint32_t least_fan = 24;
 Box3 grown(const Box3& box, double reach) {
   const Vec3 way{reach, reach, reach};
   return {minus(box.low, way), along(box.high, 1, way)};
-}
-
-Vec3 middle(const Box3& box) {
-  return {box.low[0] + box.high[0], box.low[1] + box.high[1], box.low[2] + box.high[2]};
 }
 
 /// The box around the arc that a triangle shows to one of its corners, on the unit sphere.
@@ -70,8 +67,8 @@ class TrianglePairs::Builder {
   struct Unit {
     std::uint32_t first;  // of order_
     std::uint32_t last;
-    Vec3 middle;
     std::uint32_t hub = none;
+    double middle = 0;  // twice, along the axis at hand
 
     [[nodiscard]] std::uint32_t size() const { return last - first; }
   };
@@ -99,12 +96,6 @@ class TrianglePairs::Builder {
     return std::span(order_).subspan(unit.first, unit.size());
   }
 
-  [[nodiscard]] Unit unit_of(std::uint32_t first, std::uint32_t last, std::uint32_t hub) const {
-    Box3 all = no_box;
-    for (std::uint32_t i = first; i < last; ++i) all = joined(all, box(order_[i]));
-    return {first, last, middle(all), hub};
-  }
-
   /// Puts the triangles in order: first those that are alone, then fan by fan.
   [[nodiscard]] std::vector<Unit> units_of(std::span<const std::uint32_t> hubs) {
     for (std::uint32_t t = 0; t < hubs.size(); ++t)
@@ -116,12 +107,12 @@ class TrianglePairs::Builder {
                      [&](std::uint32_t a, std::uint32_t b) { return hubs[a] < hubs[b]; });
     std::vector<Unit> units;
     units.reserve(alone);
-    for (std::uint32_t i = 0; i < alone; ++i) units.push_back(unit_of(i, i + 1, none));
+    for (std::uint32_t i = 0; i < alone; ++i) units.push_back({i, i + 1});
     for (std::uint32_t first = alone; first < order_.size();) {
       const std::uint32_t hub = hubs[order_[first]];
       std::uint32_t last = first;
       while (last < order_.size() && hubs[order_[last]] == hub) ++last;
-      units.push_back(unit_of(first, last, hub));
+      units.push_back({first, last, hub});
       first = last;
     }
     return units;
@@ -139,7 +130,7 @@ class TrianglePairs::Builder {
       for (const Unit& unit : units)
         pairs_.items_.push_back({box(order_[unit.first]), order_[unit.first]});
     } else {
-      const std::size_t half = halve(units);
+      const std::size_t half = halve(node, units);
       build(units.first(half));
       pairs_.nodes_[node].second = build(units.subspan(half));
     }
@@ -150,7 +141,7 @@ class TrianglePairs::Builder {
   /// Over the triangles of one fan, and its arcs.
   std::uint32_t build_fan(const Unit& fan) {
     std::vector<Unit> units;
-    for (std::uint32_t i = fan.first; i < fan.last; ++i) units.push_back(unit_of(i, i + 1, none));
+    for (std::uint32_t i = fan.first; i < fan.last; ++i) units.push_back({i, i + 1});
     const std::uint32_t hub = fan.hub;
     const std::uint32_t node = build(units);
     const std::uint32_t first = pairs_.nodes_[node].first;
@@ -194,15 +185,31 @@ class TrianglePairs::Builder {
   }
 
   /// Puts the units of one half of the space first; how many they are.
-  static std::size_t halve(std::span<Unit> units) {
-    Box3 middles{units[0].middle, units[0].middle};
-    for (const Unit& unit : units) middles = joined(middles, {unit.middle, unit.middle});
-    const std::size_t axis = longest_axis(middles);
+  std::size_t halve(std::uint32_t node, std::span<Unit> units) const {
+    const Vec3 axis = best_axis(node, units);
+    for (Unit& unit : units) unit.middle = extent(unit, axis).twice_middle();
     const std::size_t half = units.size() / 2;
-    std::ranges::nth_element(
-        units, units.begin() + static_cast<std::ptrdiff_t>(half), {},
-        [axis](const Unit& unit) { return std::pair(unit.middle[axis], unit.first); });
+    std::ranges::nth_element(units, units.begin() + static_cast<std::ptrdiff_t>(half), {},
+                             [](const Unit& unit) { return std::pair(unit.middle, unit.first); });
     return half;
+  }
+
+  [[nodiscard]] Vec3 best_axis(std::uint32_t node, std::span<const Unit> units) const {
+    const std::uint32_t turned = pairs_.nodes_[node].turned;
+    const auto& axes = turned == none ? frame_of_axes : pairs_.turned_[turned].axes();
+    Spread spread(axes);
+    for (const Unit& unit : units)
+      spread.add({extent(unit, axes[0]), extent(unit, axes[1]), extent(unit, axes[2])});
+    return turned == none ? spread.longest() : spread.longest_in_widths();
+  }
+
+  [[nodiscard]] Extent extent(const Unit& unit, const Vec3& axis) const {
+    Extent whole = loft::extent(triangles_[order_[unit.first]], axis);
+    for (const std::uint32_t t : triangles_of(unit).subspan(1)) {
+      const auto [low, high] = loft::extent(triangles_[t], axis);
+      whole = {std::min(whole.low, low), std::max(whole.high, high)};
+    }
+    return whole;
   }
 
   TrianglePairs& pairs_;
@@ -224,7 +231,8 @@ bool TrianglePairs::are_apart(const Node& a, const Node& b) const {
   if (b.turned == none) return turned_[a.turned].is_apart(a.box, b.box);
   const TurnedBox& turned_a = turned_[a.turned];
   const TurnedBox& turned_b = turned_[b.turned];
-  return turned_a.is_apart(a.box, turned_b, b.box) || turned_b.is_apart(b.box, turned_a, a.box);
+  return turned_a.is_apart(a.box, turned_b, b.box) || turned_b.is_apart(b.box, turned_a, a.box) ||
+         turned_a.passes(a.box, turned_b, b.box);
 }
 
 }  // namespace loft

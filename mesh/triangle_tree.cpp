@@ -3,38 +3,16 @@
 
 #include <algorithm>
 #include <compare>
-#include <limits>
 #include <numeric>
 #include <utility>
 
+#include "mesh/spread.h"
 #include "mesh/vec3.h"
 
 namespace loft {
 
-namespace {
-
-/// From where to where a triangle is along an axis.
-struct Extent {
-  double low;
-  double high;
-
-  /// Of its middle.
-  [[nodiscard]] double twice() const { return low + high; }
-};
-
-inline Extent extent(const Corners& t, const Vec3& axis) {
-  const double a = dot(axis, t[0]);
-  const double b = dot(axis, t[1]);
-  const double c = dot(axis, t[2]);
-  return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
-}
-
-}  // namespace
-
 /// Makes the nodes over some triangles.
 class TriangleTree::Builder {
-  /// In widths of the widest: what is less may be rounding.
-  static constexpr double rounding = 0x1p-20;
   /// A triangle is large that is longer than both.
   static constexpr double times_median = 4;
   static constexpr double share_of_box = 0.5;
@@ -139,39 +117,18 @@ class TriangleTree::Builder {
     const Vec3 axis = best_axis(node, some);
     keys_.clear();
     for (const std::uint32_t i : some)
-      keys_.push_back({extent(triangles_[i], axis).twice(), numbers_[i], i});
+      keys_.push_back({extent(triangles_[i], axis).twice_middle(), numbers_[i], i});
     const std::size_t half = some.size() / 2;
     std::ranges::nth_element(keys_, keys_.begin() + static_cast<std::ptrdiff_t>(half));
     for (std::size_t i = 0; i < some.size(); ++i) some[i] = keys_[i].place;
     return half;
   }
 
-  /// The axis, of the turned box if there is one, along which the triangles are spread out most, in
-  /// widths of theirs: side by side, long thin ones are more spread out across than along.
   [[nodiscard]] Vec3 best_axis(std::uint32_t node, std::span<const std::uint32_t> some) const {
     const std::uint32_t turned = tree_.nodes_[node].turned;
-    const auto& axes = turned == none ? frame_of_axes : tree_.turned_[turned].axes();
-    Box3 middles = no_box;
-    Vec3 widths{};
-    for (const std::uint32_t i : some) {
-      Vec3 middle;
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const Extent e = extent(triangles_[i], axes[axis]);
-        middle[axis] = e.twice();
-        widths[axis] += e.high - e.low;
-      }
-      middles = extended(middles, middle);
-    }
-    if (turned == none) widths = {1, 1, 1};
-    const double least = rounding * *std::ranges::max_element(widths);
-    const auto is_better = [&](std::size_t a, std::size_t b) {
-      const Vec3 spreads = minus(middles.high, middles.low);
-      return spreads[a] * std::max(widths[b], least) > spreads[b] * std::max(widths[a], least);
-    };
-    std::size_t best = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
-      if (is_better(axis, best)) best = axis;
-    return axes[best];
+    Spread spread(turned == none ? frame_of_axes : tree_.turned_[turned].axes());
+    for (const std::uint32_t i : some) spread.add(triangles_[i]);
+    return turned == none ? spread.longest() : spread.longest_in_widths();
   }
 
   /// Where a triangle is along an axis.

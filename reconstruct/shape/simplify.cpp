@@ -5,7 +5,6 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
-#include <queue>
 #include <utility>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "mesh/vec3.h"
 #include "reconstruct/shape/fan.h"
 #include "reconstruct/shape/rim_vertices.h"
+#include "reconstruct/shape/vertex_queue.h"
 #include "reconstruct/shape/witnesses.h"
 
 namespace loft {
@@ -41,7 +41,7 @@ class Simplifier {
 
   Simplification run() {
     moved_.assign(surface_.n_faces(), 0.0);
-    versions_.assign(surface_.n_vertices(), 0);
+    queue_ = VertexQueue(surface_.n_vertices());
     in_fan_.assign(surface_.n_faces(), 0);
     find_fixed();
     keep_rims();
@@ -62,11 +62,9 @@ class Simplifier {
   /// Those that may go, best first.
   void remove_vertices() {
     for (const auto v : surface_.vertices()) consider(v);
-    while (!queue_.empty()) {
-      const Entry entry = queue_.top();
-      queue_.pop();
-      if (entry.version != versions_[index(entry.vertex)]) continue;
-      if (collapse(entry.vertex)) shrink_tree();
+    while (!queue_.is_empty()) {
+      const Vertex v(static_cast<int>(queue_.pop()));
+      if (collapse(v)) shrink_tree();
     }
   }
 
@@ -76,21 +74,6 @@ class Simplifier {
     double sine;      // of the smallest angle of the new triangles
     double distance;  // the mapped distance of the faces after it
     std::size_t at;   // in the fan
-  };
-  /// A vertex that may be removed, by its best way.
-  struct Entry {
-    double cost;
-    double sine;
-    Vec3 place;
-    Vertex vertex;
-    std::uint32_t version;
-
-    /// Whether b comes first.
-    friend bool operator<(const Entry& a, const Entry& b) {
-      if (a.cost != b.cost) return a.cost > b.cost;
-      if (a.sine != b.sine) return a.sine < b.sine;
-      return a.place > b.place;
-    }
   };
 
   template <class Handle>
@@ -205,10 +188,12 @@ class Simplifier {
 
   /// Notes the best way to remove v as it is now.
   void consider(Vertex v) {
-    ++versions_[index(v)];
     find_targets(v);
-    if (targets_.empty()) return;
-    queue_.push({targets_.front().cost, targets_.front().sine, place(v), v, versions_[index(v)]});
+    const auto number = static_cast<std::uint32_t>(v.idx());
+    if (targets_.empty())
+      queue_.remove(number);
+    else
+      queue_.put(number, {targets_.front().cost, targets_.front().sine, place(v)});
   }
 
   bool collapse(Vertex v) {
@@ -318,8 +303,7 @@ class Simplifier {
   std::vector<double> moved_;   // of each face: how far successive maps may have moved its points
   std::vector<bool> is_fixed_;  // of each vertex
   std::vector<bool> is_kept_;   // of each vertex: on a rim, until others are removed
-  std::vector<std::uint32_t> versions_;  // of each vertex: entries of other versions are outdated
-  std::priority_queue<Entry> queue_;
+  VertexQueue queue_;           // those that may be removed, by their best ways
 
   std::optional<Witnesses> witnesses_;
   std::vector<std::uint32_t> rank_of_;  // of each face: its number among the witnesses

@@ -80,6 +80,27 @@ Mesh slanted_ring(std::uint32_t n) {
   return mesh;
 }
 
+/// Two bands of long thin triangles, one above the other, that slant against each other: no box of
+/// one runs along those of the other.
+Mesh slanted_both_ways(std::uint32_t n) {
+  Mesh mesh;
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const double at = 2 * std::numbers::pi * i / n;
+    for (const auto& [radius, turn, z] :
+         {std::array{9.0, 0.0, 1.0}, std::array{9.3, 0.1, 1.6}, std::array{9.0, 0.2, 1.4}})
+      mesh.points.push_back({radius * std::cos(at + turn), radius * std::sin(at + turn), z});
+  }
+  for (std::uint32_t i = 0; i < n; ++i) {
+    for (std::uint32_t ring = 0; ring < 2; ++ring) {
+      const std::uint32_t a = 3 * i + ring;
+      const std::uint32_t b = 3 * ((i + 1) % n) + ring;
+      mesh.faces.push_back({a, b, a + 1});
+      mesh.faces.push_back({a + 1, b, b + 1});
+    }
+  }
+  return mesh;
+}
+
 /// A cone of n triangles with one apex.
 Mesh cone(std::uint32_t n) {
   Mesh mesh{{{1, 2, 3}}, {}};
@@ -117,6 +138,7 @@ TEST(TrianglePairs, TestsAFewPairsATriangleHoweverThinTheyAre) {
   for (const std::uint32_t n : {1000U, 8000U}) {
     EXPECT_LT(meeting_by_tree(slanted_ring(n)).first, 60 * n) << n;
     EXPECT_LT(meeting_by_tree(cone(n)).first, 20 * n) << n;
+    EXPECT_LT(meeting_by_tree(slanted_both_ways(n)).first, 100 * n) << n;
   }
 }
 
