@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/registration/frame.h"
 
+#include <algorithm>
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 #include "mesh/vec3.h"
+#include "reconstruct/plane/nearest.h"
+#include "reconstruct/tile/sheet_heights.h"
 
 namespace loft {
 
@@ -38,7 +43,86 @@ Vec3 Frame::put_back(const Vec3& place) const {
 }
 
 void Frame::put_back(TileSet& tiles) const {
+  lift_anew(tiles);
   for (InnerVertex& inner : tiles.inner) inner.place = put_back(inner.place);
+  choose_diagonals(tiles);
+}
+
+/// Ends, whose heights do not come from the distances to both slices, keep them.
+void Frame::lift_anew(TileSet& tiles) const {
+  constexpr double rounding = 1e-9;
+  const NearestSegment lower(boundary(lower_));
+  const NearestSegment upper(boundary(upper_));
+  const NearestSegment lower_moved(boundary(lower_moved_));
+  const NearestSegment upper_moved(boundary(upper_moved_));
+  const double height = upper_.z - lower_.z;
+  for (InnerVertex& inner : tiles.inner) {
+    if (inner.kind != VertexKind::steiner) continue;
+    const Point p{inner.place[0], inner.place[1]};
+    const double share = height_share(lower_moved.distance(p), upper_moved.distance(p));
+    if (!(std::abs(inner.place[2] - (lower_.z + share * height)) <= rounding * height)) continue;
+    const Point u = lower_ways_.at(p);
+    const Point v = upper_ways_.at(p);
+    inner.place[2] = lower_.z + height * height_share(lower.distance({p.x - u.x, p.y - u.y}),
+                                                      upper.distance({p.x - v.x, p.y - v.y}));
+  }
+}
+
+namespace {
+
+/// A wall tile at an edge from the lower slice to the upper one.
+struct WallTile {
+  std::uint32_t lower;  // ends of the edge, by nodes
+  std::uint32_t upper;
+  std::uint32_t apex;
+  std::uint32_t tile;
+};
+
+void replace(Tile& tile, std::uint32_t node, std::uint32_t other) {
+  *std::ranges::find(tile.nodes, node) = other;
+}
+
+}  // namespace
+
+bool Frame::are_one(std::uint32_t lower_node, std::uint32_t upper_node, double rounding) const {
+  const Point a = lower_moved_.points[lower_node];
+  const Point b = upper_moved_.points[upper_node - lower_.points.size()];
+  return std::abs(a.x - b.x) + std::abs(a.y - b.y) <= rounding;
+}
+
+void Frame::choose_diagonals(TileSet& tiles) const {
+  constexpr double rounding = 1e-9;  // relative
+  const auto lower_count = static_cast<std::uint32_t>(lower_.points.size());
+  const auto contour_count = lower_count + static_cast<std::uint32_t>(upper_.points.size());
+  std::vector<WallTile> sides;
+  for (std::uint32_t t = 0; t < tiles.tiles.size(); ++t) {
+    const auto& nodes = tiles.tiles[t].nodes;
+    if (tiles.tiles[t].kind != FaceKind::wall || std::ranges::max(nodes) >= contour_count) continue;
+    for (unsigned i = 0; i < 3; ++i) {
+      const auto [low, high] = std::minmax(nodes[i], nodes[(i + 1) % 3]);
+      if (low < lower_count && high >= lower_count)
+        sides.push_back({low, high, nodes[(i + 2) % 3], t});
+    }
+  }
+  std::ranges::sort(sides, {}, [](const WallTile& side) {
+    return std::tuple(side.lower, side.upper, side.apex, side.tile);
+  });
+  const auto length = [&](std::uint32_t a, std::uint32_t b) {
+    return loft::length(
+        minus(place_of(lower_, upper_, tiles.inner, a), place_of(lower_, upper_, tiles.inner, b)));
+  };
+  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
+    const WallTile& a = sides[i];      // with another vertex of the lower slice
+    const WallTile& b = sides[i + 1];  // with another one of the upper slice
+    if (a.lower != b.lower || a.upper != b.upper) continue;
+    if (a.apex >= lower_count || b.apex < lower_count) continue;
+    const double now = length(a.lower, a.upper);
+    if (!(length(a.apex, b.apex) < (1 - rounding) * now)) continue;
+    if (!are_one(a.apex, a.upper, rounding * now) || !are_one(a.lower, b.apex, rounding * now))
+      continue;
+    replace(tiles.tiles[a.tile], a.upper, b.apex);
+    replace(tiles.tiles[b.tile], a.lower, a.apex);
+  }
 }
 
 }  // namespace loft

@@ -24,10 +24,18 @@ class Frame {
   /// The area that tiles of the moved regions cover, seen from above: what is in one region only.
   [[nodiscard]] double covered(const TileSet& tiles) const;
   /// Puts the inner vertices of such tiles back. Contour vertices are where they always were.
+  /// Where a sheet was narrow in the middle, as between branches that were drawn together, its
+  /// Steiner vertices get the heights that the distances to the contours as they are suggest.
+  /// An upright quad whose sides are one in the middle is a rectangle there, of which either
+  /// diagonal will do; back in space it is askew, and gets the shorter one.
   void put_back(TileSet& tiles) const;
 
  private:
   [[nodiscard]] Vec3 put_back(const Vec3& place) const;
+  void lift_anew(TileSet& tiles) const;
+  void choose_diagonals(TileSet& tiles) const;
+  [[nodiscard]] bool are_one(std::uint32_t lower_node, std::uint32_t upper_node,
+                             double rounding) const;
 
   const Region& lower_;
   const Region& upper_;

@@ -5,8 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -18,6 +20,7 @@
 #include "reconstruct/reconstruction.h"
 #include "reconstruct/registration/displacement.h"
 #include "reconstruct/registration/matching.h"
+#include "reconstruct/registration/nearest.h"
 #include "tests/reconstruct/live/edit_script.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
@@ -189,6 +192,54 @@ TEST(Registration, LeavesAloneWhatHasNotAsManyLoops) {
   EXPECT_FALSE(tile_registered(ring, square, one_offset, any_number));
 }
 
+/// A tube that forks, slanted: circles of 24 points that move by their radius from slice to slice.
+std::vector<Slice> slanted_fork() {
+  const auto circle = [](double radius, Point centre) {
+    return stacks::circle(24, radius, centre);
+  };
+  return {{0, {circle(5, {-6, 1})}},
+          {6, {circle(5, {0, 0})}},
+          {12, {circle(4, {6, 4.5}), circle(3.5, {5.2, -4})}},
+          {18, {circle(4, {11, 8}), circle(3.5, {9, -8})}}};
+}
+
+TEST(Registration, ASlantedForkKeepsItsVolume) {
+  const std::vector<Slice> slices = slanted_fork();
+  double frusta = 0;
+  for (std::size_t i = 0; i + 1 < slices.size(); ++i) {
+    const double a = area(region_of(slices[i]));
+    const double b = area(region_of(slices[i + 1]));
+    frusta += (slices[i + 1].z - slices[i].z) * (a + b + std::sqrt(a * b)) / 3;
+  }
+  expect_whole(slices, 0, frusta, 0.08);
+  Options as_it_lies;
+  as_it_lies.link = LinkRule::overlap;
+  EXPECT_LT(of_solid(slices, as_it_lies).volume, 0.85 * frusta);
+}
+
+TEST(Registration, AForkIsTheSameHoweverItIsTurned) {
+  const std::vector<Slice> slices = slanted_fork();
+  const Measures before = of_solid(slices);
+  for (const double angle : {0.3, 1.1, 2.0}) {
+    for (const double mirrored : {1.0, -1.0}) {
+      const Measures after = of_solid(turned(slices, angle, mirrored));
+      EXPECT_EQ(after.components, before.components) << angle;
+      EXPECT_EQ(after.genus, before.genus) << angle;
+      EXPECT_NEAR(after.volume, before.volume, 1e-6 * before.volume) << angle;
+    }
+  }
+}
+
+TEST(Registration, EditsOfAForkLeadToTheSameSurfaceAsTheWholeStack) {
+  constexpr std::uint64_t seed = 11;
+  Reconstruction live;
+  edits::RandomEdits random(slanted_fork(), seed);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_EQ(random.next(live), "") << "seed " << seed << " edit " << i;
+    ASSERT_EQ(edits::difference(live, {}), "") << "seed " << seed << " edit " << i;
+  }
+}
+
 TEST(Registration, KnowsHowFarAPartTurns) {
   std::vector<Point> bar{{-20, -2}, {20, -2}, {20, 2}, {-20, 2}};
   std::vector<Point> other;
@@ -200,6 +251,39 @@ TEST(Registration, KnowsHowFarAPartTurns) {
   EXPECT_NEAR(made->motion.turn, 0.3, 0.1);
   EXPECT_NEAR(made->motion.shift.y, 2, 0.3);
   EXPECT_LT(made->difference, 0.1 * (160 + 160));
+}
+
+TEST(Matching, FindsWhatATestOfAllStretchesFinds) {
+  constexpr std::uint64_t seed = 20261128;
+  std::mt19937_64 random(seed);
+  const auto any = [&] { return static_cast<double>(random() % 1000) / 100; };
+  const auto some = [&](std::size_t count) {
+    std::vector<Stretch> made(count);
+    for (Stretch& stretch : made) {
+      const double angle = any();
+      stretch.middle = {any(), any()};
+      stretch.normal = {std::cos(angle), std::sin(angle)};
+    }
+    return made;
+  };
+  const auto cost = [](const Stretch& a, const Stretch& b, double weight) {
+    const double x = a.middle.x - b.middle.x;
+    const double y = a.middle.y - b.middle.y;
+    return x * x + y * y + weight * (1 - a.normal.x * b.normal.x - a.normal.y * b.normal.y);
+  };
+  for (int round = 0; round < 50; ++round) {
+    const std::vector<Stretch> stretches = some(1 + random() % 60);
+    const double weight = round % 5;
+    const StretchTree tree(stretches, weight);
+    for (const Stretch& wanted : some(20)) {
+      double least = std::numeric_limits<double>::infinity();
+      for (const Stretch& stretch : stretches)
+        least = std::min(least, cost(wanted, stretch, weight));
+      const auto found = tree.nearest(wanted);
+      EXPECT_NEAR(found.cost, least, 1e-9) << "seed " << seed << " round " << round;
+      EXPECT_NEAR(cost(wanted, stretches[found.index], weight), least, 1e-9);
+    }
+  }
 }
 
 TEST(Matching, FindsTheSameLoopAgainWhereverItBegins) {
