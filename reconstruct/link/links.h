@@ -37,9 +37,8 @@ struct Moved {
 /// Moves the upper contours of pieces over their lower ones by the offset of their centroids, where
 /// a piece is one part in each slice, both cover less than 0.6 of what they cover together, and the
 /// move takes away at least 0.3 of their difference. Such a piece would be pinched by overlay
-/// alone. Before that, pieces that overlay has torn, although they have as many outlines and holes
-/// in both slices, are moved as these match (move_registered()), if that leaves no windows and
-/// handles. A function of the two slices.
+/// alone. Before that, what overlay has torn is untangled (untangle.h). A function of the two
+/// slices.
 void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
            std::optional<double> max_shift);
 
