@@ -103,8 +103,8 @@ class TriangleTree::Builder {
     const double most =
         std::max(times_median * *median, share_of_box * size(tree_.nodes_[node].box));
     const auto others =
-        std::ranges::partition(some, [&](std::uint32_t i) { return sizes_[i] > most; });
-    return some.size() - others.size();
+        std::partition(some.begin(), some.end(), [&](std::uint32_t i) { return sizes_[i] > most; });
+    return static_cast<std::size_t>(others - some.begin());
   }
 
   [[nodiscard]] static double size(const Box3& box) {

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include "mesh/vec3.h"
+#include "reconstruct/link/extract.h"
 #include "reconstruct/link/moves.h"
 #include "reconstruct/link/replace.h"
 
@@ -122,6 +124,17 @@ bool is_plain_surface(const TileSet& tiles, std::span<const std::uint32_t> of_pi
   return std::ranges::adjacent_find(edges) == edges.end();
 }
 
+/// What is in one of a piece's footprints only. Measured on tiles that keep their crossings:
+/// without them some lie over others, and cover more.
+double true_difference(const Region& lower, const Region& upper, const Piece& piece) {
+  const Extract below(lower, piece.lower.loops, piece.is_solid);
+  const Extract above(upper, piece.upper.loops, piece.is_solid);
+  const auto tiles = tile_with_crossings(below.region(), above.region(), any_number);
+  if (!tiles) return std::numeric_limits<double>::infinity();
+  const Pieces alone{{Piece{}}, std::vector<std::uint32_t>(tiles->tiles.size(), 0)};
+  return differences(below.region(), above.region(), *tiles, alone)[0];
+}
+
 /// Moves pieces as their outlines match, where overlay alone has torn them: each outline goes on as
 /// one, but the tiles have windows or handles, and the slices overlap little.
 void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
@@ -143,6 +156,7 @@ void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
   for (const std::uint32_t i : torn) {
     if (!is_plain_surface(tiles, tiles_of_torn[i])) continue;
     const Piece& piece = pieces.pieces[i];
+    if (overlap(piece, true_difference(lower, upper, piece)) >= torn_overlap) continue;
     const auto is_wanted = [&](const Registered& made) {
       const double way = length(made.motion.shift);
       return made.difference <= most_left * before[i] && way <= max_shift.value_or(way) &&

@@ -179,8 +179,9 @@ std::vector<Match> from_cheapest(std::vector<Match> course, const Sample& lower,
   };
   const double least = cost(*std::ranges::min_element(course, {}, cost));
   const double same = least + rounding * (least + costs.direction_weight);
-  std::ranges::rotate(course, std::ranges::find_if(
-                                  course, [&](const Match& match) { return cost(match) <= same; }));
+  const auto first =
+      std::ranges::find_if(course, [&](const Match& match) { return cost(match) <= same; });
+  std::rotate(course.begin(), first, course.end());
   return course;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -10,6 +11,7 @@
 
 #include "mesh/predicates.h"
 #include "mesh/triangle_pairs.h"
+#include "mesh/triangle_tree.h"
 #include "mesh/vec3.h"
 
 namespace loft {
@@ -303,11 +305,11 @@ class Smoothing {
 
   /// Takes moves back by half where tiles meet. Returns whether there were any.
   bool straighten() {
-    const std::vector<bool> is_met = find_meeting();
-    if (std::ranges::find(is_met, true) == is_met.end()) return false;
+    find_meeting();
+    if (std::ranges::find(is_met_, true) == is_met_.end()) return false;
     std::vector<std::uint32_t> front;
-    for (std::uint32_t t = 0; t < is_met.size(); ++t)
-      if (is_met[t])
+    for (std::uint32_t t = 0; t < is_met_.size(); ++t)
+      if (is_met_[t])
         front.insert(front.end(), tiles_.tiles[t].nodes.begin(), tiles_.tiles[t].nodes.end());
     std::vector<bool> is_done(moves_.size());
     while (!front.empty()) {
@@ -319,7 +321,9 @@ class Smoothing {
       move.share = move.share > least_bend ? move.share / 2 : 0;
       front.insert(front.end(), move.edge.begin(), move.edge.end());
     }
+    std::vector<bool> is_moved(moves_.size());
     for (std::uint32_t i = 0; i < moves_.size(); ++i) {
+      const Vec3 before = tiles_.inner[i].place;
       Move& move = moves_[i];
       if (move.edge[0] != none)
         move.start = middle(this->place(move.edge[0]), this->place(move.edge[1]));
@@ -329,28 +333,68 @@ class Smoothing {
       const double least = least_share * height();
       place[2] = std::clamp(place[2], std::min(lower_.z + least, move.start[2]),
                             std::max(upper_.z - least, move.start[2]));
+      is_moved[i] = place != before;
     }
+    find_doubtful(is_moved);
     return true;
   }
 
+  /// The tiles of which some may meet now: those that have changed, and those that met before.
+  void find_doubtful(const std::vector<bool>& is_moved) {
+    doubtful_.clear();
+    for (std::uint32_t t = 0; t < is_met_.size(); ++t) {
+      const auto& nodes = tiles_.tiles[t].nodes;
+      const bool has_changed = std::ranges::any_of(nodes, [&](std::uint32_t node) {
+        return node >= contour_count_ && is_moved[node - contour_count_];
+      });
+      if (has_changed || is_met_[t]) doubtful_.push_back(t);
+    }
+  }
+
+  [[nodiscard]] Corners corners(std::uint32_t tile) const {
+    const auto& [a, b, c] = tiles_.tiles[tile].nodes;
+    return {place(a), place(b), place(c)};
+  }
+
   /// The tiles that are degenerate or meet others elsewhere than in common corners and edges.
-  [[nodiscard]] std::vector<bool> find_meeting() const {
+  void find_meeting() {
+    if (is_met_.empty()) {  // the first time
+      doubtful_.resize(tiles_.tiles.size());
+      std::iota(doubtful_.begin(), doubtful_.end(), 0U);
+    }
+    is_met_.assign(tiles_.tiles.size(), false);
     std::vector<Corners> corners;
     std::vector<TrianglePairs::Vertices> nodes_of;
-    std::vector<bool> is_met(tiles_.tiles.size());
-    for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
-      const auto& nodes = tiles_.tiles[t].nodes;
-      const Corners& c =
-          corners.emplace_back(Corners{place(nodes[0]), place(nodes[1]), place(nodes[2])});
-      nodes_of.push_back(nodes);
-      is_met[t] = collinear(c[0], c[1], c[2]);
+    for (const std::uint32_t t : doubtful_) {
+      const Corners& c = corners.emplace_back(this->corners(t));
+      nodes_of.push_back(tiles_.tiles[t].nodes);
+      is_met_[t] = collinear(c[0], c[1], c[2]);
     }
     const std::size_t node_count = contour_count_ + tiles_.inner.size();
     TrianglePairs(corners, nodes_of, node_count).for_each([&](std::uint32_t i, std::uint32_t j) {
-      if ((is_met[i] && is_met[j]) || !triangles_meet(corners[i], corners[j])) return;
-      is_met[i] = is_met[j] = true;
+      note_meeting(doubtful_[i], doubtful_[j], corners[i], corners[j]);
     });
-    return is_met;
+    if (doubtful_.size() < tiles_.tiles.size()) find_meeting_others(corners);
+  }
+
+  /// Those that doubtful ones meet among the others.
+  void find_meeting_others(std::span<const Corners> doubtful) {
+    const TriangleTree tree(doubtful);
+    std::vector<bool> is_doubtful(tiles_.tiles.size());
+    for (const std::uint32_t t : doubtful_) is_doubtful[t] = true;
+    for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
+      if (is_doubtful[t]) continue;
+      const Corners corners = this->corners(t);
+      static_cast<void>(tree.all_of_meeting(corners, [&](std::uint32_t i, const Corners& other) {
+        note_meeting(t, doubtful_[i], corners, other);
+        return true;
+      }));
+    }
+  }
+
+  void note_meeting(std::uint32_t a, std::uint32_t b, const Corners& of_a, const Corners& of_b) {
+    if ((is_met_[a] && is_met_[b]) || !triangles_meet(of_a, of_b)) return;
+    is_met_[a] = is_met_[b] = true;
   }
 
   const Region& lower_;
@@ -361,8 +405,10 @@ class Smoothing {
   std::vector<Shape> shapes_;         // of each piece
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
-  std::vector<Move> moves_;  // of each inner vertex
-  EdgeIndex middles_;        // the node that each edge is split at; none if it stays
+  std::vector<Move> moves_;              // of each inner vertex
+  std::vector<bool> is_met_;             // of each tile, when that was looked at last
+  std::vector<std::uint32_t> doubtful_;  // the tiles of which that has to be found anew
+  EdgeIndex middles_;                    // the node that each edge is split at; none if it stays
 };
 
 }  // namespace
