@@ -36,6 +36,10 @@ constexpr double least_slide = 0.125;
 /// shapes, with this, and whatever the weights of the matching, the volume was nearer on all that
 /// changed, the mean distance to the shape on all but three, on which it grew by at most 3%.
 constexpr double most_left_and_overlap = 0.8;
+/// They are where the volume is off that of a frustum by such a share, and if this becomes less by
+/// that share.
+constexpr double least_error = 0.05;
+constexpr double most_error_left = 0.7;
 
 double length(Point p) { return std::hypot(p.x, p.y); }
 
@@ -218,11 +222,11 @@ double volume(const Region& lower, const Region& upper, const Piece& piece, cons
   return (upper.z - lower.z) * piece.upper.area + (piece.is_solid ? below : -below);
 }
 
-/// How far a volume is from that of a frustum with these ends.
-double volume_error(const Region& lower, const Region& upper, const Piece& piece, double volume) {
+/// The volume of a frustum with a piece's ends.
+double frustum(const Region& lower, const Region& upper, const Piece& piece) {
   const double a = piece.lower.area;
   const double b = piece.upper.area;
-  return std::abs(volume - (upper.z - lower.z) * (a + b + std::sqrt(a * b)) / 3);
+  return (upper.z - lower.z) * (a + b + std::sqrt(a * b)) / 3;
 }
 
 std::vector<std::uint32_t> all_of(const TileSet& tiles) {
@@ -253,6 +257,9 @@ void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
   std::vector<Replacement> replacements;
   for (const std::uint32_t i : loose) {
     const Piece& piece = pieces.pieces[i];
+    const double whole = frustum(lower, upper, piece);
+    const double error = std::abs(volume(lower, upper, piece, tiles, tiles_of_loose[i]) - whole);
+    if (error < least_error * whole || !is_plain_surface(tiles, tiles_of_loose[i])) continue;
     const double left = std::min(most_left, most_left_and_overlap - overlap(piece, before[i]));
     const auto is_wanted = [&](const Registered& made) {
       const double way = length(made.motion.shift);
@@ -261,10 +268,8 @@ void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
     };
     auto moved = move_by_places(lower, upper, piece, is_wanted);
     if (!moved) continue;
-    const double old = volume(lower, upper, piece, tiles, tiles_of_loose[i]);
     const double now = volume(lower, upper, piece, moved->tiles, all_of(moved->tiles));
-    if (!(volume_error(lower, upper, piece, now) < volume_error(lower, upper, piece, old)))
-      continue;
+    if (!(std::abs(now - whole) <= most_error_left * error)) continue;
     moved->piece.reason = LinkReason::registered;
     moved->piece.bends = true;
     replacements.push_back(replacement(std::move(*moved), {i}));

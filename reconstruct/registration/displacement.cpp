@@ -51,6 +51,9 @@ double cross(Point a, Point b, Point c) {
 
 using Entry = Eigen::Triplet<double>;
 
+/// Triangles that are lower than that share of an edge count as being so high.
+constexpr double least_slope = 1e-6;
+
 /// The normal equations of the pulls and of the smoothness, solved.
 std::optional<std::vector<Point>> solve(const Region& region, std::span<const Corner> triangles,
                                         std::span<const Pull> pulls, double softness) {
@@ -76,8 +79,10 @@ std::optional<std::vector<Point>> solve(const Region& region, std::span<const Co
     for (unsigned k = 0; k < 3; ++k) {
       const Point p = at[k];
       const Point q = at[(k + 1) % 3];
+      const Point r = at[(k + 2) % 3];
       const double squared = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
-      const double weight = std::max(area / squared, 1e-3);
+      const double inner = (p.x - r.x) * (q.x - r.x) + (p.y - r.y) * (q.y - r.y);
+      const double weight = inner / std::max(2 * area, least_slope * squared);
       const std::uint32_t i = t[k];
       const std::uint32_t j = t[(k + 1) % 3];
       add(i, i, weight);
@@ -237,15 +242,40 @@ Interpolation::Interpolation(const Region& region, std::span<const Point> values
 
 Point Interpolation::at(Point place) const {
   const cdt::Location found = mesh_.locate(place);
-  if (found.kind == cdt::Location::Kind::nowhere || found.kind == cdt::Location::Kind::outside)
-    return values_[cdt::nearest_vertex(mesh_, place).index()];
-  const std::array corners{mesh_.from(found.edge), mesh_.to(found.edge), mesh_.apex(found.edge)};
-  if (found.kind != cdt::Location::Kind::triangle &&
-      mesh_.is_infinite(Triangulation::triangle(found.edge))) {
-    return values_[cdt::nearest_vertex(mesh_, place).index()];
+  switch (found.kind) {
+    case cdt::Location::Kind::vertex:
+      return values_[mesh_.from(found.edge).index()];
+    case cdt::Location::Kind::edge:
+      return along(found.edge, std::clamp(share(found.edge, place), 0.0, 1.0));
+    case cdt::Location::Kind::triangle:
+      return inside(found.edge, place);
+    case cdt::Location::Kind::outside:
+      return beyond(found.edge, place);
+    case cdt::Location::Kind::nowhere:
+      break;
   }
-  const auto [a, b, c] = corners;
-  const Point p = mesh_.point(a), q = mesh_.point(b), r = mesh_.point(c);
+  return {};
+}
+
+/// How far along an edge a place is beside it.
+double Interpolation::share(EdgeId e, Point place) const {
+  const Point a = mesh_.point(mesh_.from(e));
+  const Point b = mesh_.point(mesh_.to(e));
+  const Point way{b.x - a.x, b.y - a.y};
+  return ((place.x - a.x) * way.x + (place.y - a.y) * way.y) / (way.x * way.x + way.y * way.y);
+}
+
+Point Interpolation::along(EdgeId e, double share) const {
+  const Point a = values_[mesh_.from(e).index()];
+  const Point b = values_[mesh_.to(e).index()];
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+}
+
+Point Interpolation::inside(EdgeId e, Point place) const {
+  const std::array corners{mesh_.from(e), mesh_.to(e), mesh_.apex(e)};
+  const Point p = mesh_.point(corners[0]);
+  const Point q = mesh_.point(corners[1]);
+  const Point r = mesh_.point(corners[2]);
   const double whole = cross(p, q, r);
   const std::array shares{cross(place, q, r) / whole, cross(p, place, r) / whole,
                           cross(p, q, place) / whole};
@@ -255,6 +285,27 @@ Point Interpolation::at(Point place) const {
     sum = {sum.x + shares[i] * value.x, sum.y + shares[i] * value.y};
   }
   return sum;
+}
+
+/// At the nearest place of the convex hull, which is found by going round it from an edge that the
+/// place can be seen from. So a place on the hull may be put outside by rounding.
+Point Interpolation::beyond(EdgeId e, Point place) const {
+  const auto is_hull = [&](EdgeId edge) {
+    return mesh_.from(edge) != Triangulation::infinite && mesh_.to(edge) != Triangulation::infinite;
+  };
+  for (int i = 0; i < 2 && !is_hull(e); ++i) e = Triangulation::next(e);
+  if (!is_hull(e)) return values_[cdt::nearest_vertex(mesh_, place).index()];
+  for (std::size_t steps = 0; steps < mesh_.vertex_count(); ++steps) {
+    const double here = share(e, place);
+    if (here >= 0 && here <= 1) return along(e, here);
+    const bool is_ahead = here > 1;
+    const EdgeId beside = is_ahead ? Triangulation::next(mesh_.twin(Triangulation::next(e)))
+                                   : Triangulation::prev(mesh_.twin(Triangulation::prev(e)));
+    const double there = share(beside, place);
+    if (is_ahead ? there <= 0 : there >= 1) return along(e, is_ahead ? 1 : 0);
+    e = beside;
+  }
+  return values_[cdt::nearest_vertex(mesh_, place).index()];
 }
 
 }  // namespace loft

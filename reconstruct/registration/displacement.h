@@ -18,10 +18,11 @@ namespace loft {
 class Displacement {
  public:
   /// The affine map with the least squares of the pulls; what is left by the least squares of pulls
-  /// and of the change along edges of the region's CDT, so that what happens over a distance below
-  /// `softness` is smoothed. Where loops would cross, the ways are smoothed further, then
-  /// shortened; none if that does not help. Cost: that of the CDT, some times, and of a sparse
-  /// symmetric system with a row a point.
+  /// and of the Dirichlet energy over the region's CDT (cotangent weights: Pinkall and Polthier,
+  /// 1993), so that what happens over a distance below `softness` is smoothed. That energy is the
+  /// same whichever way places on one circle are triangulated. Where loops would cross, the ways
+  /// are smoothed further, then shortened; none if that does not help. Cost: that of the CDT, some
+  /// times, and of a sparse symmetric system with a row a point.
   [[nodiscard]] static std::optional<Displacement> fit(const Region& region,
                                                        std::span<const Pull> pulls,
                                                        double softness);
@@ -33,7 +34,7 @@ class Displacement {
 };
 
 /// A function of the plane that has given values at given places and is linear over the triangles
-/// of their CDT; beyond them, that of the nearest place.
+/// of their CDT; beyond them, that of the nearest place of their convex hull.
 class Interpolation {
  public:
   /// Places and loops of the region, each place once.
@@ -43,6 +44,11 @@ class Interpolation {
   [[nodiscard]] cdt::Point at(cdt::Point place) const;
 
  private:
+  [[nodiscard]] double share(cdt::EdgeId e, cdt::Point place) const;
+  [[nodiscard]] cdt::Point along(cdt::EdgeId e, double share) const;
+  [[nodiscard]] cdt::Point inside(cdt::EdgeId e, cdt::Point place) const;
+  [[nodiscard]] cdt::Point beyond(cdt::EdgeId e, cdt::Point place) const;
+
   cdt::Triangulation mesh_;
   std::vector<cdt::Point> values_;  // of each vertex
 };

@@ -192,6 +192,14 @@ TEST(Registration, LeavesAloneWhatHasNotAsManyLoops) {
   EXPECT_FALSE(tile_registered(ring, square, one_offset, any_number));
 }
 
+TEST(Registration, AThinBarThatTurnsKeepsItsVolume) {
+  const std::vector<Point> bar{{-20, -0.5}, {20, -0.5}, {20, 0.5}, {-20, 0.5}};
+  std::vector<Point> turned_bar;
+  for (const Point p : bar)
+    turned_bar.push_back({(p.x - p.y) * std::sqrt(0.5), (p.x + p.y) * std::sqrt(0.5)});
+  expect_whole({{0, {{bar, ""}}}, {20, {{turned_bar, ""}}}}, 0, 800, 0.1);
+}
+
 /// A tube that forks, slanted: circles of 24 points that move by their radius from slice to slice.
 std::vector<Slice> slanted_fork() {
   const auto circle = [](double radius, Point centre) {
