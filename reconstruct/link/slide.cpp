@@ -246,6 +246,13 @@ std::vector<std::uint32_t> loose_pieces(const Pieces& pieces, std::span<const do
   return loose;
 }
 
+/// Whether a piece has windows or handles: more than its outlines and holes, joined by one surface,
+/// account for.
+bool is_torn(const Piece& piece, long twice_euler) {
+  const std::size_t loops = piece.lower.loops.size() + piece.upper.loops.size();
+  return twice_euler < 4 - 2 * static_cast<long>(loops);
+}
+
 /// Moves each outline of a piece its own way over the others, as at forks.
 void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
                    std::optional<double> max_shift) {
@@ -259,7 +266,9 @@ void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
     const Piece& piece = pieces.pieces[i];
     const double whole = frustum(lower, upper, piece);
     const double error = std::abs(volume(lower, upper, piece, tiles, tiles_of_loose[i]) - whole);
-    if (error < least_error * whole || !is_plain_surface(tiles, tiles_of_loose[i])) continue;
+    if (error < least_error * whole || is_torn(piece, euler[i]) ||
+        !is_plain_surface(tiles, tiles_of_loose[i]))
+      continue;
     const double left = std::min(most_left, most_left_and_overlap - overlap(piece, before[i]));
     const auto is_wanted = [&](const Registered& made) {
       const double way = length(made.motion.shift);
