@@ -67,7 +67,7 @@ class Spread {
     return axes_[best];
   }
 
-  const std::array<Vec3, 3>& axes_;
+  std::array<Vec3, 3> axes_;
   Box3 middles_ = no_box;
   Vec3 widths_{};
 };

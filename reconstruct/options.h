@@ -93,7 +93,7 @@ struct Options {
   LinkRule link = LinkRule::automatic;
   /// The farthest that LinkRule::automatic moves a part sideways from slice to slice, in the unit
   /// of the input, also where that is more than it would by itself; by the parts' size where not
-  /// set (links.h). LinkOrders may ask for more.
+  /// set (link/ends.h). LinkOrders may ask for more.
   std::optional<double> max_shift = {};
   /// Orders that cannot be met are reported among the repairs; the slab is then as without them.
   std::vector<LinkOrder> links = {};

@@ -22,11 +22,11 @@ constexpr double least_overlap = 0.4;
 /// prediction may be, besides its share of the shift.
 constexpr double farthest_predicted = 4;
 constexpr double farthest_near = 2;
-/// Boxes for these are larger by that share of all that is in them: they must not miss a pair.
-constexpr double rounding_of_reach = 0x1p-40;
 constexpr double most_error = 0.5;
 constexpr double most_error_of_shift = 0.25;
 constexpr double least_likeness = 0.5;  // of areas
+/// Boxes for these are larger by that share of all that is in them: they must not miss a pair.
+constexpr double rounding_of_reach = 0x1p-40;
 
 double length(Point p) { return std::hypot(p.x, p.y); }
 Point difference(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
@@ -147,7 +147,6 @@ class Matching {
   void find_pairs() {
     std::erase_if(lower_, [this](const End& end) { return is_closing(end); });
     std::erase_if(upper_, [this](const End& end) { return is_closing(end); });
-    std::ranges::sort(upper_, {}, [](const End& end) { return end.footprint->centroid.x; });
     std::vector<Box3> boxes;
     for (const End& end : upper_) boxes.push_back(reach(end));
     const BoxTree tree(boxes);

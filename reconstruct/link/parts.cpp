@@ -81,14 +81,26 @@ class PartFinder {
   std::vector<std::uint32_t> label_;  // the part of each triangle, or none
 };
 
+/// Whether each loop has a part. One that is little larger than what is taken for a contact may
+/// have lost its inside to a vertex of the other slice.
+bool has_all_loops(const PartGraph& graph) {
+  const auto has_all = [](const std::vector<std::uint32_t>& parts) {
+    return std::ranges::find(parts, none) == parts.end();
+  };
+  return has_all(graph.lower_part) && has_all(graph.upper_part);
+}
+
 }  // namespace
 
 PartGraph find_parts(const Region& lower, const Region& upper) {
   const Slab slab(lower, upper);
   const double contact = loft::contact(lower, upper);
-  if (slab.has_near_contact(contact))
-    if (const auto merged = Slab::merged(lower, upper, {}, contact))
-      return PartFinder(*merged).run();
+  if (slab.has_near_contact(contact)) {
+    if (const auto merged = Slab::merged(lower, upper, {}, contact)) {
+      PartGraph graph = PartFinder(*merged).run();
+      if (has_all_loops(graph)) return graph;
+    }
+  }
   return PartFinder(slab).run();
 }
 

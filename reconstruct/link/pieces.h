@@ -16,7 +16,7 @@ enum class LinkReason : std::uint8_t {
   predicted,   ///< they do not overlap, but lie where a neighbouring slice lets expect them
   nearest,     ///< they do not overlap, but are near, alike, and nothing speaks against it
   order,       ///< a LinkOrder asked for it
-  registered,  ///< they overlap, and were moved over each other as their outlines match
+  registered,  ///< they overlap, and were moved over each other as their outlines, or places, match
 };
 
 /// What of one slice belongs to a piece.

@@ -90,19 +90,24 @@ bool is_alike(const Piece& piece) {
          piece.lower.loops.size() == piece.upper.loops.size();
 }
 
-/// The same of the tiles of one piece alone.
-long twice_euler(const Region& lower, const Region& upper, const Piece& piece,
-                 const TileSet& tiles) {
+std::vector<std::uint32_t> all_of(const TileSet& tiles) {
+  std::vector<std::uint32_t> all(tiles.tiles.size());
+  std::iota(all.begin(), all.end(), 0U);
+  return all;
+}
+
+/// The same of one piece, by its tiles.
+long twice_euler(const Region& lower, const Region& upper, const Piece& piece, const TileSet& tiles,
+                 std::span<const std::uint32_t> of_piece) {
   std::vector<std::uint32_t> nodes;
-  for (const Tile& tile : tiles.tiles)
-    nodes.insert(nodes.end(), tile.nodes.begin(), tile.nodes.end());
+  for (const std::uint32_t t : of_piece)
+    nodes.insert(nodes.end(), tiles.tiles[t].nodes.begin(), tiles.tiles[t].nodes.end());
   std::ranges::sort(nodes);
   const std::size_t repeated = std::ranges::unique(nodes).size();
   std::size_t rims = 0;
   for (const std::uint32_t loop : piece.lower.loops) rims += lower.loop(loop).size();
   for (const std::uint32_t loop : piece.upper.loops) rims += upper.loop(loop).size();
-  return 2 * static_cast<long>(nodes.size() - repeated) -
-         static_cast<long>(tiles.tiles.size() + rims);
+  return 2 * static_cast<long>(nodes.size() - repeated) - static_cast<long>(of_piece.size() + rims);
 }
 
 /// The tiles of each of some pieces, and of no others.
@@ -164,7 +169,7 @@ void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
     const auto is_wanted = [&](const Registered& made) {
       const double way = length(made.motion.shift);
       return made.difference <= most_left * before[i] && way <= max_shift.value_or(way) &&
-             twice_euler(lower, upper, piece, made.tiles) == 0;
+             twice_euler(lower, upper, piece, made.tiles, all_of(made.tiles)) == 0;
     };
     auto moved = move_by_loops(lower, upper, piece, is_wanted);
     if (!moved) continue;
@@ -229,12 +234,6 @@ double frustum(const Region& lower, const Region& upper, const Piece& piece) {
   return (upper.z - lower.z) * (a + b + std::sqrt(a * b)) / 3;
 }
 
-std::vector<std::uint32_t> all_of(const TileSet& tiles) {
-  std::vector<std::uint32_t> all(tiles.tiles.size());
-  std::iota(all.begin(), all.end(), 0U);
-  return all;
-}
-
 /// Pieces that overlap little, and have been moved by nothing else.
 std::vector<std::uint32_t> loose_pieces(const Pieces& pieces, std::span<const double> before) {
   std::vector<std::uint32_t> loose;
@@ -259,21 +258,21 @@ void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
   const std::vector<double> before = differences(lower, upper, tiles, pieces);
   const std::vector<std::uint32_t> loose = loose_pieces(pieces, before);
   if (loose.empty()) return;
-  const std::vector<long> euler = twice_euler(lower, upper, tiles, pieces);
   const auto tiles_of_loose = tiles_of(loose, pieces);
   std::vector<Replacement> replacements;
   for (const std::uint32_t i : loose) {
     const Piece& piece = pieces.pieces[i];
+    const long euler = twice_euler(lower, upper, piece, tiles, tiles_of_loose[i]);
     const double whole = frustum(lower, upper, piece);
     const double error = std::abs(volume(lower, upper, piece, tiles, tiles_of_loose[i]) - whole);
-    if (error < least_error * whole || is_torn(piece, euler[i]) ||
+    if (error < least_error * whole || is_torn(piece, euler) ||
         !is_plain_surface(tiles, tiles_of_loose[i]))
       continue;
     const double left = std::min(most_left, most_left_and_overlap - overlap(piece, before[i]));
     const auto is_wanted = [&](const Registered& made) {
       const double way = length(made.motion.shift);
       return made.difference <= left * before[i] && way <= max_shift.value_or(way) &&
-             twice_euler(lower, upper, piece, made.tiles) >= euler[i];
+             twice_euler(lower, upper, piece, made.tiles, all_of(made.tiles)) >= euler;
     };
     auto moved = move_by_places(lower, upper, piece, is_wanted);
     if (!moved) continue;

@@ -2,6 +2,7 @@
 #include "reconstruct/registration/nearest.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -12,8 +13,8 @@ namespace loft {
 StretchTree::StretchTree(std::span<const Stretch> stretches, double direction_weight)
     : direction_(std::sqrt(direction_weight / 2)) {
   for (const Stretch& stretch : stretches)
-    items_.push_back({key(stretch), static_cast<std::uint32_t>(items_.size())});
-  build(0, items_.size(), 0);
+    items_.push_back({key(stretch), static_cast<std::uint32_t>(items_.size()), 0});
+  build(0, items_.size());
 }
 
 /// Of unit vectors a and b, |a - b|^2 = 2 (1 - cosine).
@@ -22,40 +23,53 @@ StretchTree::Key StretchTree::key(const Stretch& stretch) const {
           direction_ * stretch.normal.y};
 }
 
-void StretchTree::build(std::size_t first, std::size_t last, unsigned axis) {
+/// Along the axis in which the range is spread out most.
+void StretchTree::build(std::size_t first, std::size_t last) {
   if (last - first < 2) return;
-  const std::size_t middle = first + (last - first) / 2;
   const auto at = [&](std::size_t i) { return items_.begin() + static_cast<std::ptrdiff_t>(i); };
+  Key low = items_[first].key;
+  Key high = low;
+  for (std::size_t i = first + 1; i < last; ++i) {
+    for (std::size_t k = 0; k < low.size(); ++k) {
+      low[k] = std::min(low[k], items_[i].key[k]);
+      high[k] = std::max(high[k], items_[i].key[k]);
+    }
+  }
+  unsigned axis = 0;
+  for (unsigned k = 1; k < low.size(); ++k)
+    if (high[k] - low[k] > high[axis] - low[axis]) axis = k;
+  const std::size_t middle = first + (last - first) / 2;
   std::nth_element(at(first), at(middle), at(last), [&](const Item& a, const Item& b) {
     return a.key[axis] != b.key[axis] ? a.key[axis] < b.key[axis] : a.index < b.index;
   });
-  build(first, middle, (axis + 1) % 4);
-  build(middle + 1, last, (axis + 1) % 4);
+  items_[middle].axis = axis;
+  build(first, middle);
+  build(middle + 1, last);
 }
 
-void StretchTree::search(std::size_t first, std::size_t last, unsigned axis, const Key& wanted,
+void StretchTree::search(std::size_t first, std::size_t last, const Key& wanted,
                          Nearest& best) const {
   if (first == last) return;
   cdt::spend();
   const std::size_t middle = first + (last - first) / 2;
-  const auto& [key, index] = items_[middle];
+  const auto& [key, index, axis] = items_[middle];
   double cost = 0;
   for (std::size_t i = 0; i < 4; ++i) cost += (key[i] - wanted[i]) * (key[i] - wanted[i]);
   if (cost < best.cost || (cost == best.cost && index < best.index)) best = {index, cost};
   const double beyond = wanted[axis] - key[axis];
-  const unsigned next = (axis + 1) % 4;
   if (beyond < 0) {
-    search(first, middle, next, wanted, best);
-    if (beyond * beyond <= best.cost) search(middle + 1, last, next, wanted, best);
+    search(first, middle, wanted, best);
+    if (beyond * beyond <= best.cost) search(middle + 1, last, wanted, best);
   } else {
-    search(middle + 1, last, next, wanted, best);
-    if (beyond * beyond <= best.cost) search(first, middle, next, wanted, best);
+    search(middle + 1, last, wanted, best);
+    if (beyond * beyond <= best.cost) search(first, middle, wanted, best);
   }
 }
 
 StretchTree::Nearest StretchTree::nearest(const Stretch& stretch) const {
   Nearest best{Origin::none, std::numeric_limits<double>::infinity()};
-  search(0, items_.size(), 0, key(stretch), best);
+  search(0, items_.size(), key(stretch), best);
+  assert(best.index != Origin::none);
   return best;
 }
 

@@ -32,15 +32,15 @@ class StretchTree {
   struct Item {
     Key key;
     std::uint32_t index;
+    unsigned axis = 0;  // along which it parts its range
   };
 
   [[nodiscard]] Key key(const Stretch& stretch) const;
-  void build(std::size_t first, std::size_t last, unsigned axis);
-  void search(std::size_t first, std::size_t last, unsigned axis, const Key& wanted,
-              Nearest& best) const;
+  void build(std::size_t first, std::size_t last);
+  void search(std::size_t first, std::size_t last, const Key& wanted, Nearest& best) const;
 
   double direction_;         // how long a direction is
-  std::vector<Item> items_;  // the middle one of a range parts the others along the range's axis
+  std::vector<Item> items_;  // the middle one of a range parts the others
 };
 
 /// Which stretches of two regions belong together, if nothing is known of their loops: each with

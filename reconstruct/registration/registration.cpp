@@ -42,7 +42,10 @@ constexpr std::size_t stretches_of_place = 4;
 constexpr int rounds = 3;
 
 /// The mean thickness: of a long wall what it is, of a disc its radius.
-double thickness_of(const Region& region) { return 2 * area(region) / perimeter(region); }
+double thickness_of(const Region& region) {
+  const double length = perimeter(region);
+  return length > 0 ? 2 * area(region) / length : 0;
+}
 
 /// The stretches of a pair of loops.
 struct Outlines {

@@ -304,7 +304,7 @@ std::optional<TileSet> tile_merged(const Region& lower, const Region& upper, con
   auto slab = Slab::merged(lower, upper, how.shear, how.contact);
   if (!slab) return {};
   auto drafted = draft(*slab, 0, Overlay::rounded, workspace);
-  if (!drafted) return {};
+  if (!drafted || !fit_together(lower, upper, drafted->tiles)) return {};
   if (how.collapses) collapse_crossings(lower, upper, drafted->tiles, true);
   if (tiles_meet(lower, upper, drafted->tiles, pairs_left)) return {};
   return std::move(drafted->tiles);
