@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "reconstruct/link/link_orders.h"
 #include "reconstruct/link/ends.h"
+#include "reconstruct/link/link_orders.h"
 #include "reconstruct/live/retile.h"
 #include "reconstruct/shape/refine.h"
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "reconstruct/link/extract.h"
-#include "reconstruct/link/slide.h"
 #include "reconstruct/link/replace.h"
+#include "reconstruct/link/slide.h"
 #include "reconstruct/plane/tile_grid.h"
 
 namespace loft {

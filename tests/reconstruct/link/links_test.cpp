@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include "reconstruct/link/ends.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 
 #include "mesh/measure.h"
 #include "reconstruct/clean/cleaning.h"
+#include "reconstruct/link/ends.h"
 #include "reconstruct/link/linking.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/reconstruct/solid.h"
