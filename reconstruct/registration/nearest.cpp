@@ -50,7 +50,6 @@ void StretchTree::build(std::size_t first, std::size_t last) {
 void StretchTree::search(std::size_t first, std::size_t last, const Key& wanted,
                          Nearest& best) const {
   if (first == last) return;
-  cdt::spend();
   const std::size_t middle = first + (last - first) / 2;
   const auto& [key, index, axis] = items_[middle];
   double cost = 0;
@@ -67,6 +66,7 @@ void StretchTree::search(std::size_t first, std::size_t last, const Key& wanted,
 }
 
 StretchTree::Nearest StretchTree::nearest(const Stretch& stretch) const {
+  cdt::spend();
   Nearest best{Origin::none, std::numeric_limits<double>::infinity()};
   search(0, items_.size(), key(stretch), best);
   assert(best.index != Origin::none);
