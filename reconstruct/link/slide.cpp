@@ -103,11 +103,11 @@ long twice_euler(const Region& lower, const Region& upper, const Piece& piece, c
   for (const std::uint32_t t : of_piece)
     nodes.insert(nodes.end(), tiles.tiles[t].nodes.begin(), tiles.tiles[t].nodes.end());
   std::ranges::sort(nodes);
-  const std::size_t repeated = std::ranges::unique(nodes).size();
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   std::size_t rims = 0;
   for (const std::uint32_t loop : piece.lower.loops) rims += lower.loop(loop).size();
   for (const std::uint32_t loop : piece.upper.loops) rims += upper.loop(loop).size();
-  return 2 * static_cast<long>(nodes.size() - repeated) - static_cast<long>(of_piece.size() + rims);
+  return 2 * static_cast<long>(nodes.size()) - static_cast<long>(of_piece.size() + rims);
 }
 
 /// The tiles of each of some pieces, and of no others.
