@@ -59,31 +59,6 @@ double swept(const Region& region, const Footprint& footprint, Point way) {
   return sum;
 }
 
-/// The Euler characteristic of each piece, twice. A band from a loop to a loop has 0; one with a
-/// window in it, or with a handle, has less. Cost: O(tiles).
-std::vector<long> twice_euler(const Region& lower, const Region& upper, const TileSet& tiles,
-                              const Pieces& pieces) {
-  std::vector<long> sums(pieces.pieces.size());
-  std::vector<bool> is_seen(lower.points.size() + upper.points.size() + tiles.inner.size());
-  for (std::size_t t = 0; t < tiles.tiles.size(); ++t) {
-    long& sum = sums[pieces.of_tile[t]];
-    --sum;  // twice a face, less its share of three edges
-    for (const std::uint32_t node : tiles.tiles[t].nodes) {
-      if (!is_seen[node]) sum += 2;
-      is_seen[node] = true;
-    }
-  }
-  const auto take_rims = [&](const Region& region, const Footprint& footprint, long& sum) {
-    for (const std::uint32_t loop : footprint.loops)
-      sum -= static_cast<long>(region.loop(loop).size());
-  };
-  for (std::size_t i = 0; i < sums.size(); ++i) {
-    take_rims(lower, pieces.pieces[i].lower, sums[i]);
-    take_rims(upper, pieces.pieces[i].upper, sums[i]);
-  }
-  return sums;
-}
-
 /// Whether a piece has one outline in both slices, and as many holes.
 bool is_alike(const Piece& piece) {
   return piece.lower.parts == 1 && piece.upper.parts == 1 &&
@@ -96,7 +71,8 @@ std::vector<std::uint32_t> all_of(const TileSet& tiles) {
   return all;
 }
 
-/// The same of one piece, by its tiles.
+/// The Euler characteristic of a piece, twice, by its tiles. A band from a loop to a loop has 0;
+/// one with a window in it, or with a handle, has less.
 long twice_euler(const Region& lower, const Region& upper, const Piece& piece, const TileSet& tiles,
                  std::span<const std::uint32_t> of_piece) {
   std::vector<std::uint32_t> nodes;
@@ -144,31 +120,38 @@ double true_difference(const Region& lower, const Region& upper, const Piece& pi
   return differences(below.region(), above.region(), *tiles, alone)[0];
 }
 
+/// Whether a registration leaves no more than that of a difference, without going too far for it.
+bool brings_together(const Registered& made, double most_difference,
+                     std::optional<double> max_shift) {
+  const double way = length(made.motion.shift);
+  return made.difference <= most_difference && way <= max_shift.value_or(way);
+}
+
 /// Moves pieces as their outlines match, where overlay alone has torn them: each outline goes on as
-/// one, but the tiles have windows or handles, and the slices overlap little.
-void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-              std::optional<double> max_shift) {
+/// one, but the tiles have windows or handles, and the slices overlap little. Knows the differences
+/// of all pieces, and says whether it has moved any; so do the moves after it.
+bool untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
+              std::span<const double> before, std::optional<double> max_shift) {
   const auto is_steiner = [](const InnerVertex& v) { return v.kind == VertexKind::steiner; };
-  if (std::ranges::none_of(tiles.inner, is_steiner)) return;
-  const std::vector<long> euler = twice_euler(lower, upper, tiles, pieces);
-  std::vector<std::uint32_t> torn;
+  if (std::ranges::none_of(tiles.inner, is_steiner)) return false;
+  std::vector<std::uint32_t> apart;
   for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
-    if (piece.reason == LinkReason::overlap && is_alike(piece) && euler[i] < 0) torn.push_back(i);
+    if (piece.reason == LinkReason::overlap && is_alike(piece) &&
+        overlap(piece, before[i]) < torn_overlap)
+      apart.push_back(i);
   }
-  if (torn.empty()) return;
-  const std::vector<double> before = differences(lower, upper, tiles, pieces);
-  std::erase_if(
-      torn, [&](std::uint32_t i) { return overlap(pieces.pieces[i], before[i]) >= torn_overlap; });
-  const auto tiles_of_torn = tiles_of(torn, pieces);
+  if (apart.empty()) return false;
+  const auto tiles_of_apart = tiles_of(apart, pieces);
   std::vector<Replacement> replacements;
-  for (const std::uint32_t i : torn) {
-    if (!is_plain_surface(tiles, tiles_of_torn[i])) continue;
+  for (const std::uint32_t i : apart) {
     const Piece& piece = pieces.pieces[i];
+    if (twice_euler(lower, upper, piece, tiles, tiles_of_apart[i]) >= 0 ||
+        !is_plain_surface(tiles, tiles_of_apart[i]))
+      continue;
     if (overlap(piece, true_difference(lower, upper, piece)) >= torn_overlap) continue;
     const auto is_wanted = [&](const Registered& made) {
-      const double way = length(made.motion.shift);
-      return made.difference <= most_left * before[i] && way <= max_shift.value_or(way) &&
+      return brings_together(made, most_left * before[i], max_shift) &&
              twice_euler(lower, upper, piece, made.tiles, all_of(made.tiles)) == 0;
     };
     auto moved = move_by_loops(lower, upper, piece, is_wanted);
@@ -176,12 +159,12 @@ void untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
     moved->piece.reason = LinkReason::registered;
     replacements.push_back(replacement(std::move(*moved), {i}));
   }
-  replace(lower, upper, tiles, pieces, replacements);
+  return replace(lower, upper, tiles, pieces, replacements);
 }
 
 /// Moves parts as a whole, where that alone brings them over each other.
-void slide_over(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-                std::optional<double> max_shift) {
+bool slide_over(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
+                std::span<const double> before, std::optional<double> max_shift) {
   std::vector<std::uint32_t> movable;
   for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
@@ -191,8 +174,6 @@ void slide_over(const Region& lower, const Region& upper, TileSet& tiles, Pieces
     const double size = std::min(piece.lower.radius, piece.upper.radius);
     if (way > least_slide * size && way <= max_shift.value_or(way)) movable.push_back(i);
   }
-  if (movable.empty()) return;
-  const std::vector<double> before = differences(lower, upper, tiles, pieces);
   const std::size_t most_pairs = most_pairs_of(lower.points.size() + upper.points.size());
   std::vector<Replacement> replacements;
   for (const std::uint32_t i : movable) {
@@ -208,7 +189,7 @@ void slide_over(const Region& lower, const Region& upper, TileSet& tiles, Pieces
     if (!moved || moved->difference > most) continue;
     replacements.push_back(replacement(std::move(*moved), {i}));
   }
-  replace(lower, upper, tiles, pieces, replacements);
+  return replace(lower, upper, tiles, pieces, replacements);
 }
 
 /// The volume between a piece's contours that these tiles of it enclose.
@@ -253,11 +234,10 @@ bool is_torn(const Piece& piece, long twice_euler) {
 }
 
 /// Moves each outline of a piece its own way over the others, as at forks.
-void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-                   std::optional<double> max_shift) {
-  const std::vector<double> before = differences(lower, upper, tiles, pieces);
+bool draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
+                   std::span<const double> before, std::optional<double> max_shift) {
   const std::vector<std::uint32_t> loose = loose_pieces(pieces, before);
-  if (loose.empty()) return;
+  if (loose.empty()) return false;
   const auto tiles_of_loose = tiles_of(loose, pieces);
   std::vector<Replacement> replacements;
   for (const std::uint32_t i : loose) {
@@ -270,8 +250,7 @@ void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
       continue;
     const double left = std::min(most_left, most_left_and_overlap - overlap(piece, before[i]));
     const auto is_wanted = [&](const Registered& made) {
-      const double way = length(made.motion.shift);
-      return made.difference <= left * before[i] && way <= max_shift.value_or(way) &&
+      return brings_together(made, left * before[i], max_shift) &&
              twice_euler(lower, upper, piece, made.tiles, all_of(made.tiles)) >= euler;
     };
     auto moved = move_by_places(lower, upper, piece, is_wanted);
@@ -282,16 +261,17 @@ void draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
     moved->piece.bends = true;
     replacements.push_back(replacement(std::move(*moved), {i}));
   }
-  replace(lower, upper, tiles, pieces, replacements);
+  return replace(lower, upper, tiles, pieces, replacements);
 }
 
 }  // namespace
 
 void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
            std::optional<double> max_shift) {
-  untangle(lower, upper, tiles, pieces, max_shift);
-  slide_over(lower, upper, tiles, pieces, max_shift);
-  draw_together(lower, upper, tiles, pieces, max_shift);
+  std::vector<double> before = differences(lower, upper, tiles, pieces);
+  for (const auto move : {untangle, slide_over, draw_together})
+    if (move(lower, upper, tiles, pieces, before, max_shift))
+      before = differences(lower, upper, tiles, pieces);
 }
 
 }  // namespace loft

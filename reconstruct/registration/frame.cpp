@@ -51,13 +51,17 @@ void Frame::put_back(TileSet& tiles) const {
 /// Ends, whose heights do not come from the distances to both slices, keep them.
 void Frame::lift_anew(TileSet& tiles) const {
   constexpr double rounding = 1e-9;
+  const auto is_steiner = [](const InnerVertex& inner) {
+    return inner.kind == VertexKind::steiner;
+  };
+  if (std::ranges::none_of(tiles.inner, is_steiner)) return;
   const NearestSegment lower(boundary(lower_));
   const NearestSegment upper(boundary(upper_));
   const NearestSegment lower_moved(boundary(lower_moved_));
   const NearestSegment upper_moved(boundary(upper_moved_));
   const double height = upper_.z - lower_.z;
   for (InnerVertex& inner : tiles.inner) {
-    if (inner.kind != VertexKind::steiner) continue;
+    if (!is_steiner(inner)) continue;
     const Point p{inner.place[0], inner.place[1]};
     const double share = height_share(lower_moved.distance(p), upper_moved.distance(p));
     if (!(std::abs(inner.place[2] - (lower_.z + share * height)) <= rounding * height)) continue;

@@ -8,6 +8,23 @@ namespace loft {
 
 using cdt::Point;
 
+namespace {
+
+/// The middle of a stretch, at a share of an edge that is `whole` long.
+Stretch stretch_on(const Region& region, std::uint32_t from, std::uint32_t to, double whole,
+                   double share, double length) {
+  const Point p = region.points[from];
+  const Point q = region.points[to];
+  return {{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)},
+          {(q.y - p.y) / whole, (p.x - q.x) / whole},
+          length,
+          from,
+          to,
+          share};
+}
+
+}  // namespace
+
 std::vector<Stretch> stretches(const Region& region, std::uint32_t loop, std::size_t count) {
   std::vector<Stretch> made;
   const auto vertices = region.loop(loop);
@@ -24,12 +41,9 @@ std::vector<Stretch> stretches(const Region& region, std::uint32_t loop, std::si
     while (edge + 1 < vertices.size() && ways[edge + 1] <= way) ++edge;
     const std::uint32_t from = vertices[edge];
     const std::uint32_t to = vertices[(edge + 1) % vertices.size()];
-    const Point p = region.points[from];
-    const Point q = region.points[to];
     const double length = ways[edge + 1] - ways[edge];
     const double share = std::clamp((way - ways[edge]) / length, 0.0, 1.0);
-    const Point middle{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
-    made.push_back({middle, {(q.y - p.y) / length, (p.x - q.x) / length}, step, from, to, share});
+    made.push_back(stretch_on(region, from, to, length, share, step));
   }
   return made;
 }
@@ -43,13 +57,9 @@ std::vector<Stretch> stretches_by_edges(const Region& region, std::uint32_t loop
     const Point p = region.points[from];
     const Point q = region.points[to];
     const double whole = std::hypot(q.x - p.x, q.y - p.y);
-    const Point normal{(q.y - p.y) / whole, (p.x - q.x) / whole};
     const double count = std::max(1.0, std::round(whole / length));
-    for (double k = 0; k < count; ++k) {
-      const double share = (k + 0.5) / count;
-      const Point middle{p.x + share * (q.x - p.x), p.y + share * (q.y - p.y)};
-      made.push_back({middle, normal, whole / count, from, to, share});
-    }
+    for (double k = 0; k < count; ++k)
+      made.push_back(stretch_on(region, from, to, whole, (k + 0.5) / count, whole / count));
   }
   return made;
 }
