@@ -94,6 +94,7 @@ Json to_json(const LinkReport& link) {
   json["lower"] = side(link.lower, link.lower_place);
   json["upper"] = side(link.upper, link.upper_place);
   json["shift"] = link.shift;
+  json["turn"] = link.turn;
   json["overlap"] = link.overlap;
   json["confidence"] = link.confidence;
   return json;

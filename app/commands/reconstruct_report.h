@@ -84,7 +84,7 @@ struct SkippedLabel {
 /// overlap, shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth,
 /// death), of (part or cavity), rule (overlap, slide, predicted, nearest, order, registered; null
 /// for what begins or ends as nothing overlaps it), lower and upper: contours (a list of [slice,
-/// contour]) and place [x, y] (null if there are none); shift, overlap, confidence.
+/// contour]) and place [x, y] (null if there are none); shift, turn (degrees), overlap, confidence.
 /// reconstruct/link/link_report.h says what the numbers mean, reconstruct/link/pieces.h the rules.
 ///
 /// Lengths in the unit of the input. Later versions of the schema may add keys.

@@ -3,20 +3,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include "mesh/box_tree.h"
-#include "reconstruct/link/moves.h"
-#include "reconstruct/link/replace.h"
 
 namespace loft {
 
 namespace {
 
 using cdt::Point;
-
-/// Parts that were moved over each other must overlap that much.
-constexpr double least_overlap = 0.4;
 
 /// In sums of two radii: the farthest shift with and without a prediction, and how far off a
 /// prediction may be, besides its share of the shift.
@@ -25,6 +22,10 @@ constexpr double farthest_near = 2;
 constexpr double most_error = 0.5;
 constexpr double most_error_of_shift = 0.25;
 constexpr double least_likeness = 0.5;  // of areas
+
+/// In radii of an end: how far beside what it is joined to, taken as a circle, its way may lead.
+constexpr double most_beside = 0.25;
+constexpr double least_of_joined = 0.5;  // of the end's area, that of what it is joined to
 /// Boxes for these are larger by that share of all that is in them: they must not miss a pair.
 constexpr double rounding_of_reach = 0x1p-40;
 
@@ -64,7 +65,7 @@ class Matching {
     }
   }
 
-  [[nodiscard]] bool is_possible() const { return !lower_.empty() && !upper_.empty(); }
+  [[nodiscard]] bool is_possible() const { return !lower_.empty() || !upper_.empty(); }
 
   /// Looks up how the ends move in the slabs on the other side of their slices.
   void look_around(const SlabPieces& below, const SlabPieces& above) {
@@ -73,6 +74,16 @@ class Matching {
   }
 
   std::vector<EndLink> run() {
+    std::vector<EndLink> links = find_links();
+    std::vector<bool> is_taken(slab_.pieces->pieces.size());
+    for (const EndLink& link : links) is_taken[link.lower] = is_taken[link.upper] = true;
+    join(lower_, is_taken, Level::lower, links);
+    join(upper_, is_taken, Level::upper, links);
+    return links;
+  }
+
+  /// Of ends with ends.
+  std::vector<EndLink> find_links() {
     find_pairs();
     std::ranges::sort(pairs_, [this](const Pair& a, const Pair& b) {
       return a.cost != b.cost ? a.cost < b.cost : places(a) < places(b);
@@ -96,6 +107,74 @@ class Matching {
     LinkReason reason;
   };
 
+  /// The parts of one slice that ends of the other may be joined to.
+  struct Targets {
+    std::vector<std::uint32_t> pieces;
+    BoxTree boxes;
+  };
+
+  [[nodiscard]] Targets targets(Level level) const {
+    std::vector<std::uint32_t> found;
+    std::vector<Box3> boxes;
+    for (std::uint32_t i = 0; i < slab_.pieces->pieces.size(); ++i) {
+      const Piece& piece = slab_.pieces->pieces[i];
+      const Footprint& part = piece.footprint(level);
+      if (part.parts != 1 || piece.is_tip()) continue;
+      found.push_back(i);
+      boxes.push_back(box_around(part.centroid, part.radius));
+    }
+    return {std::move(found), BoxTree(boxes)};
+  }
+
+  /// Joins ends of one slice that go on in the slab beside, each to the part of the other slice
+  /// that its way leads into, as at a fork: whatever else is linked with that.
+  void join(std::span<const End> ends, const std::vector<bool>& is_taken, Level level,
+            std::vector<EndLink>& links) const {
+    std::optional<Targets> targets;
+    for (const End& end : ends) {
+      if (is_taken[end.piece] || !end.trend) continue;
+      if (!targets) targets = this->targets(other(level));
+      if (const auto link = join(end, level, *targets)) links.push_back(*link);
+    }
+  }
+
+  [[nodiscard]] std::optional<EndLink> join(const End& end, Level level,
+                                            const Targets& targets) const {
+    double least = std::numeric_limits<double>::infinity();
+    std::optional<EndLink> best;
+    targets.boxes.for_each_meeting(reach_of_join(end), [&](std::uint32_t target) {
+      const std::uint32_t i = targets.pieces[target];
+      const Piece& piece = slab_.pieces->pieces[i];
+      const EndLink link = level == Level::lower ? EndLink{end.piece, i, LinkReason::predicted}
+                                                 : EndLink{i, end.piece, LinkReason::predicted};
+      if (piece.is_solid != end.is_solid || is_forbidden(link.lower, link.upper)) return;
+      const double off = off_outline(end, piece.footprint(other(level)));
+      if (!(off < least)) return;
+      least = off;
+      best = link;
+    });
+    return best;
+  }
+
+  /// How far the way of an end leads beside another part, as a circle; negative if into it,
+  /// infinite if that is too far.
+  [[nodiscard]] double off_outline(const End& end, const Footprint& far) const {
+    const Point way = difference(far.centroid, end.footprint->centroid);
+    const double shift = length(way);
+    const double off = error(end, way) - far.radius;
+    const bool is_possible = shift <= max_shift_.value_or(shift) &&
+                             off <= most_beside * end.radius &&
+                             far.area >= least_of_joined * end.footprint->area;
+    return is_possible ? off : std::numeric_limits<double>::infinity();
+  }
+
+  /// Meets all targets that are not too far.
+  [[nodiscard]] Box3 reach_of_join(const End& end) const {
+    const auto [x, y] = end.footprint->centroid;
+    const Point way = expected(end);
+    return box_around({x + way.x, y + way.y}, most_beside * end.radius);
+  }
+
   [[nodiscard]] std::pair<Point, Point> places(const Pair& pair) const {
     return {lower_[pair.lower].footprint->centroid, upper_[pair.upper].footprint->centroid};
   }
@@ -110,7 +189,7 @@ class Matching {
   void look(const SlabPieces& beside, Level level, std::vector<End>& ends) const {
     if (beside.pieces == nullptr || ends.empty()) return;
     const auto& pieces = beside.pieces->pieces;
-    const auto matches = match_ends({}, beside, {}, max_shift_, {});
+    const auto matches = Matching(beside, max_shift_, {}).find_links();
     std::vector<const Piece*> of_loop;  // by the first loop of the common footprint
     for (const Piece& piece : pieces) {
       if (piece.footprint(level).is_empty()) continue;
@@ -187,8 +266,12 @@ class Matching {
   /// How far from its way so far a part would go; 0 if that is not known.
   [[nodiscard]] double error(const End& end, Point way) const {
     if (!end.trend) return 0;
-    const Point expected{end.trend->velocity.x * slab_.gap, end.trend->velocity.y * slab_.gap};
-    return length(difference(way, expected));
+    return length(difference(way, expected(end)));
+  }
+
+  /// The way of a part with a trend, if it goes on as it was.
+  [[nodiscard]] Point expected(const End& end) const {
+    return {end.trend->velocity.x * slab_.gap, end.trend->velocity.y * slab_.gap};
   }
 
   [[nodiscard]] bool is_forbidden(std::uint32_t lower, std::uint32_t upper) const {
@@ -215,82 +298,6 @@ std::vector<EndLink> match_ends(const SlabPieces& below, const SlabPieces& slab,
   if (!matching.is_possible()) return {};
   matching.look_around(below, above);
   return matching.run();
-}
-
-namespace {
-
-/// The outer loops of a footprint, or the holes in it.
-Footprint loops(const Region& region, const Footprint& whole, bool is_solid, bool is_outer) {
-  Footprint chosen;
-  for (const std::uint32_t loop : whole.loops) {
-    Footprint one;
-    one.loops = {loop};
-    if ((measure(region, one) == is_solid) == is_outer) chosen.loops.push_back(loop);
-  }
-  if (!chosen.is_empty()) measure(region, chosen);
-  return chosen;
-}
-
-/// A hollow part beside a solid or a narrower one, as where a shell closes: its outlines are joined
-/// and its holes by themselves, or they end. None if these tiles meet.
-std::optional<Replacement> move_shell(const Region& lower, const Region& upper,
-                                      const Piece& whole) {
-  Piece outside = whole;
-  outside.lower = loops(lower, whole.lower, whole.is_solid, true);
-  outside.upper = loops(upper, whole.upper, whole.is_solid, true);
-  Piece inside = whole;
-  inside.is_solid = !whole.is_solid;
-  inside.lower = loops(lower, whole.lower, whole.is_solid, false);
-  inside.upper = loops(upper, whole.upper, whole.is_solid, false);
-  if (inside.lower.is_empty() && inside.upper.is_empty()) return std::nullopt;
-  outside.shift = inside.shift = offset(outside);
-  auto outer = move_by_shift(lower, upper, std::move(outside));
-  auto inner = move_by_shift(lower, upper, std::move(inside));
-  if (!outer || !inner || overlap(outer->piece, outer->difference) < least_overlap)
-    return std::nullopt;
-  // As if the outer ones were there before: one more test of the same kind.
-  Replacement shell = replacement(std::move(*outer), {});
-  std::vector<Replacement> more;
-  more.push_back(replacement(std::move(*inner), {}));
-  if (!replace(lower, upper, shell.tiles, shell.pieces, more)) return std::nullopt;
-  return shell;
-}
-
-/// Two ends as one piece.
-std::optional<Replacement> link_two(const Region& lower, const Region& upper, const Pieces& pieces,
-                                    const EndLink& link) {
-  Piece piece;
-  piece.is_solid = pieces.pieces[link.lower].is_solid;
-  piece.lower = pieces.pieces[link.lower].lower;
-  piece.upper = pieces.pieces[link.upper].upper;
-  piece.reason = link.reason;
-  piece.shift = offset(piece);
-  auto moved = move_by_shift(lower, upper, piece);
-  const std::vector<std::uint32_t> both{link.lower, link.upper};
-  const auto is_wanted = [&](const Registered& made) {
-    return overlap(piece, made.difference) >= least_overlap;
-  };
-  if (moved && overlap(piece, moved->difference) >= least_overlap)
-    return replacement(std::move(*moved), both);
-  if (auto shell = move_shell(lower, upper, piece)) {
-    shell->replaced = both;
-    return shell;
-  }
-  if (auto fitted = move_by_loops(lower, upper, piece, is_wanted))
-    return replacement(std::move(*fitted), both);
-  if (moved && link.reason == LinkReason::order) return replacement(std::move(*moved), both);
-  return {};
-}
-
-}  // namespace
-
-void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-               std::span<const EndLink> links) {
-  std::vector<Replacement> replacements;
-  for (const EndLink& link : links)
-    if (auto linked = link_two(lower, upper, pieces, link))
-      replacements.push_back(std::move(*linked));
-  replace(lower, upper, tiles, pieces, replacements);
 }
 
 }  // namespace loft

@@ -18,10 +18,10 @@ struct SlabPieces {
   double gap = 0;                  ///< its height
 };
 
-/// Two ends of a slab that belong together.
+/// Two ends of a slab that belong together, or an end and what it is a branch of.
 struct EndLink {
-  std::uint32_t lower = 0;  ///< index of the piece that ends
-  std::uint32_t upper = 0;  ///< index of the piece that begins
+  std::uint32_t lower = 0;  ///< index of the piece that ends, or whose lower footprint is meant
+  std::uint32_t upper = 0;  ///< index of the piece that begins, or whose upper footprint is meant
   LinkReason reason = LinkReason::nearest;
 
   friend bool operator==(const EndLink&, const EndLink&) = default;
@@ -38,19 +38,16 @@ struct EndLink {
 /// differ by a factor of 2 at most. A part that shrinks as fast as a round end would is not linked:
 /// a paraboloid's area is in proportion to the distance from its top, which lies somewhere in the
 /// slab. Of the possible pairs those with the least error (distance, and ratio of areas) are taken,
-/// each end once; equal ones by place. A function of the slab's two slices and one on either side.
+/// each end once; equal ones by place.
+///
+/// An end that is no one's match, but goes on in the slab beside, is linked with a part of the
+/// other slice that is none (the other index is that piece's) if its predicted place is within
+/// that, taken as a circle, or beside it by at most a quarter of its own radius: a branch of a fork
+/// that has gone too far to overlap it. What it joins has at least half its area. A function of the
+/// slab's two slices and one on either side.
 [[nodiscard]] std::vector<EndLink> match_ends(const SlabPieces& below, const SlabPieces& slab,
                                               const SlabPieces& above,
                                               std::optional<double> max_shift,
                                               std::span<const EndLink> forbidden);
-
-/// Tiles matched ends as one piece each, the upper part moved over the lower one. If they then
-/// cover less than 0.4 of what they cover together, and one is hollow, as where a shell closes, its
-/// outlines are joined and its holes by themselves, or the holes end. If that makes too little of
-/// an overlap, too, they are moved as their outlines match (move_by_loops()); else the match is
-/// left out, unless an order asks for it. Where these tiles meet nothing else (exact test), they
-/// take the place of the two ends.
-void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-               std::span<const EndLink> links);
 
 }  // namespace loft

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "mesh/vec3.h"
 #include "reconstruct/link/moves.h"
@@ -54,9 +55,11 @@ LinkReport report(const Region& lower, const Region& upper, const Piece& piece, 
   link.upper_place = piece.upper.centroid;
   if (piece.is_end()) return link;
   link.shift = std::hypot(piece.shift.x, piece.shift.y);
+  link.turn = piece.turn * 180 / std::numbers::pi;
   link.overlap = overlap(piece, difference);
   const double size = std::min(piece.lower.radius, piece.upper.radius);
-  if (size > 0) link.confidence = link.overlap * size / (size + link.shift);
+  if (size > 0)
+    link.confidence = link.overlap * size / (size + link.shift + size * std::abs(piece.turn));
   return link;
 }
 

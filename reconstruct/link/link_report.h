@@ -30,9 +30,10 @@ struct LinkReport {
   std::vector<ContourId> upper;
   cdt::Point lower_place;  ///< centroid of what they enclose; (0, 0) if there are none
   cdt::Point upper_place;
-  double shift = 0;       ///< how far the upper contours were moved to be tiled over the lower ones
-  double overlap = 0;     ///< area in both slices by area in either, after that; 0 for an end
-  double confidence = 0;  ///< overlap * r / (r + shift); r: the smaller radius
+  double shift = 0;    ///< how far the upper contours were moved to be tiled over the lower ones
+  double turn = 0;     ///< and how far the lower ones turn to be as they are, degrees, to the left
+  double overlap = 0;  ///< area in both slices by area in either, after that; 0 for an end
+  double confidence = 0;  ///< overlap * r / (r + shift + r * |turn|); r: the smaller radius
 };
 
 /// How sure the surface is between two slices.

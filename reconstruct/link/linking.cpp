@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "reconstruct/link/link_ends.h"
+
 namespace loft {
 
 void Linking::add(const Region& region) {

@@ -40,6 +40,7 @@ class Alone {
     if (!made) return {};
     Moved moved{embedded(std::move(made->tiles)), piece_, made->difference};
     moved.piece.shift = {-made->motion.shift.x, -made->motion.shift.y};
+    moved.piece.turn = made->motion.turn;
     moved.piece.registered_difference = made->difference;
     moved.piece.bends = false;
     return moved;
@@ -94,10 +95,10 @@ std::optional<Moved> move_by_loops(const Region& lower, const Region& upper, con
 }
 
 std::optional<Moved> move_by_places(const Region& lower, const Region& upper, const Piece& piece,
-                                    const IsWanted& is_wanted) {
+                                    const IsWanted& is_wanted, const LoopWays& ways) {
   const Alone alone(lower, upper, piece);
   return alone.moved(
-      tile_registered_by_places(alone.lower(), alone.upper(), alone.most_pairs(), is_wanted));
+      tile_registered_by_places(alone.lower(), alone.upper(), alone.most_pairs(), is_wanted, ways));
 }
 
 Replacement replacement(Moved moved, std::vector<std::uint32_t> replaced) {

@@ -41,9 +41,10 @@ struct Moved {
     const Region& lower, const Region& upper, const Piece& piece,
     const IsWanted& is_wanted = [](const Registered&) { return true; });
 
-/// As the places of its outlines match, however many it has.
+/// As the places of its outlines match, however many it has, from where `ways` take them.
 [[nodiscard]] std::optional<Moved> move_by_places(const Region& lower, const Region& upper,
-                                                  const Piece& piece, const IsWanted& is_wanted);
+                                                  const Piece& piece, const IsWanted& is_wanted,
+                                                  const LoopWays& ways = {});
 
 /// Puts it into the place of some pieces.
 [[nodiscard]] Replacement replacement(Moved moved, std::vector<std::uint32_t> replaced);

@@ -2,6 +2,7 @@
 #include "reconstruct/link/parts.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "reconstruct/tile/slab.h"
 #include "reconstruct/tile/tiles.h"
@@ -25,11 +26,18 @@ class PartFinder {
     graph.lower_count = label(Level::lower, graph.lower_part);
     const std::vector<std::uint32_t> lower = label_;
     graph.upper_count = label(Level::upper, graph.upper_part);
-    for (std::size_t t = 0; t < label_.size(); ++t)
-      if (lower[t] != none && label_[t] != none) graph.overlaps.push_back({lower[t], label_[t]});
-    std::ranges::sort(graph.overlaps);
-    graph.overlaps.erase(std::unique(graph.overlaps.begin(), graph.overlaps.end()),
-                         graph.overlaps.end());
+    std::vector<std::pair<PartGraph::Overlap, double>> shared;  // of triangles, with their areas
+    for (std::uint32_t t = 0; t < label_.size(); ++t)
+      if (lower[t] != none && label_[t] != none)
+        shared.push_back({{lower[t], label_[t]}, area(TriangleId(t))});
+    std::ranges::sort(shared);
+    for (const auto& [overlap, area] : shared) {
+      if (graph.overlaps.empty() || graph.overlaps.back() != overlap) {
+        graph.overlaps.push_back(overlap);
+        graph.areas.push_back(0);
+      }
+      graph.areas.back() += area;
+    }
     return graph;
   }
 
@@ -37,6 +45,16 @@ class PartFinder {
   [[nodiscard]] bool is_inside(EdgeId e, Level level) const {
     const auto bit = static_cast<unsigned>(level == Level::lower ? Side::lower : Side::upper);
     return (static_cast<unsigned>(slab_.side(e)) & bit) != 0;
+  }
+
+  [[nodiscard]] double area(TriangleId t) const {
+    const auto corner = [&](unsigned i) {
+      return mesh_.point(mesh_.from(Triangulation::edge(t, i)));
+    };
+    const cdt::Point a = corner(0);
+    const cdt::Point b = corner(1);
+    const cdt::Point c = corner(2);
+    return ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)) / 2;
   }
 
   /// Numbers the parts of a slice in label_, for each triangle; for each loop the part on its left.

@@ -24,6 +24,7 @@ struct PartGraph {
   std::uint32_t lower_count = 0;          ///< number of parts
   std::uint32_t upper_count = 0;
   std::vector<Overlap> overlaps;  ///< sorted, each once; with an area in common
+  std::vector<double> areas;      ///< of each overlap
 };
 
 /// Cost: that of the CDT of both slices.

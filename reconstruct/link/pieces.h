@@ -47,6 +47,8 @@ struct Piece {
   Footprint upper;
   LinkReason reason = LinkReason::overlap;
   cdt::Point shift;  ///< by which its upper contours were moved over the lower ones to be tiled
+  double turn =
+      0;  ///< of its lower contours to be as the upper ones, if it was registered; radians
   /// The area between its contours once they were moved as they match, not by the shift alone.
   std::optional<double> registered_difference = {};
   /// Whether the slices tell over each place how it bends: not if it was registered, and overlaps

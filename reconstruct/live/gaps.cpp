@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "reconstruct/link/ends.h"
+#include "reconstruct/link/link_ends.h"
 #include "reconstruct/link/link_orders.h"
 #include "reconstruct/live/retile.h"
 #include "reconstruct/shape/refine.h"

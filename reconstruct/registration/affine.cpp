@@ -51,4 +51,24 @@ Affine fit_affine(std::span<const Pull> pulls) {
   return fitted;
 }
 
+double fit_turn(std::span<const Pull> pulls) {
+  double sum = 0;
+  Point from;
+  Point to;
+  for (const auto& [stretch, way, weight] : pulls) {
+    sum += weight;
+    from = {from.x + weight * stretch.middle.x, from.y + weight * stretch.middle.y};
+    to = {to.x + weight * (stretch.middle.x + way.x), to.y + weight * (stretch.middle.y + way.y)};
+  }
+  double along = 0;
+  double aside = 0;
+  for (const auto& [stretch, way, weight] : pulls) {
+    const Point p{stretch.middle.x - from.x / sum, stretch.middle.y - from.y / sum};
+    const Point q{stretch.middle.x + way.x - to.x / sum, stretch.middle.y + way.y - to.y / sum};
+    along += weight * (p.x * q.x + p.y * q.y);
+    aside += weight * (p.x * q.y - p.y * q.x);
+  }
+  return std::atan2(aside, along);
+}
+
 }  // namespace loft

@@ -30,6 +30,9 @@ struct Affine {
   [[nodiscard]] Stretch moved(Stretch stretch) const;
 };
 
+/// The turn of the rigid motion that fits the pulls best, radians, counter-clockwise (Procrustes).
+[[nodiscard]] double fit_turn(std::span<const Pull> pulls);
+
 /// The least squares of the pulls; a shift alone where they are on one line.
 [[nodiscard]] Affine fit_affine(std::span<const Pull> pulls);
 

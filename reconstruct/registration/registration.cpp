@@ -13,6 +13,7 @@
 #include "reconstruct/registration/loop_pairs.h"
 #include "reconstruct/registration/matching.h"
 #include "reconstruct/registration/nearest.h"
+#include "reconstruct/registration/twist.h"
 #include "reconstruct/tile/crossings.h"
 
 namespace loft {
@@ -26,6 +27,7 @@ using cdt::Point;
 /// walls were the same but for a hundredth of the volume.
 constexpr double softness = 0.5;
 constexpr double most_drift = 0.25;
+constexpr double most_twist = 0.1;
 
 /// In squares of the distance between the loops: what it costs to change the direction, and to
 /// stand still on one loop. With a quarter of the former walls are matched with the wrong side of
@@ -102,8 +104,20 @@ AllStretches all_stretches(const Region& region, double length) {
   return all;
 }
 
-/// Stretches where the mean way of their loop's takes them. `pulls` are theirs.
-std::vector<Stretch> moved_by_loops(const AllStretches& all, std::span<const Pull> pulls) {
+/// Stretches where the ways of their loops take them, if there are any.
+std::vector<Stretch> moved(const AllStretches& all, std::span<const Point> ways) {
+  std::vector<Stretch> moved = all.stretches;
+  if (ways.empty()) return moved;
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    const Point way = ways[all.loops[i]];
+    Point& p = moved[i].middle;
+    p = {p.x + way.x, p.y + way.y};
+  }
+  return moved;
+}
+
+/// The mean way of each loop. `pulls` are those of all stretches.
+std::vector<Point> ways_of_loops(const AllStretches& all, std::span<const Pull> pulls) {
   struct Sum {
     Point way;
     double weight = 0;
@@ -115,13 +129,9 @@ std::vector<Stretch> moved_by_loops(const AllStretches& all, std::span<const Pul
     way = {way.x + more * pulls[i].way.x, way.y + more * pulls[i].way.y};
     weight += more;
   }
-  std::vector<Stretch> moved = all.stretches;
-  for (std::size_t i = 0; i < moved.size(); ++i) {
-    const auto& [way, weight] = sums[all.loops[i]];
-    Point& p = moved[i].middle;
-    p = {p.x + way.x / weight, p.y + way.y / weight};
-  }
-  return moved;
+  std::vector<Point> ways;
+  for (const auto& [way, weight] : sums) ways.push_back({way.x / weight, way.y / weight});
+  return ways;
 }
 
 /// Finds how two regions lie over each other.
@@ -135,27 +145,24 @@ class Registration {
   [[nodiscard]] double thickness() const { return thickness_; }
   [[nodiscard]] std::span<const Pull> lower_pulls() const { return lower_pulls_; }
   [[nodiscard]] std::span<const Pull> upper_pulls() const { return upper_pulls_; }
-  [[nodiscard]] Motion motion() const {
-    const auto& [centre, shift, along_x, along_y] = back_;
-    return {{-shift.x, -shift.y}, -std::atan2(along_x.y - along_y.x, 2 + along_x.x + along_y.y)};
-  }
+  [[nodiscard]] Motion motion() const { return {{-back_.shift.x, -back_.shift.y}, -turn_back_}; }
 
   /// Whatever loops they have: each stretch with the nearest one, as iterated closest points do
   /// (Besl and McKay, 1992), where each loop has gone its way since the round before.
-  bool match_places() {
+  bool match_places(const LoopWays& ways) {
     if (!(thickness_ > 0)) return false;
     const auto count = static_cast<double>(stretches_of_place * places());
     const AllStretches below = all_stretches(lower_, perimeter(lower_) / count);
     const AllStretches above = all_stretches(upper_, perimeter(upper_) / count);
     outlines_.assign(1, {below.stretches, above.stretches});
-    std::vector<Stretch> lower = below.stretches;
-    std::vector<Stretch> upper = above.stretches;
+    std::vector<Stretch> lower = moved(below, ways.lower);
+    std::vector<Stretch> upper = moved(above, ways.upper);
     for (int round = 0; round < rounds; ++round) {
       const double distance = std::max(thickness_ * thickness_, mean_square_distance(lower, upper));
       outlines_[0].matches = match_nearest(lower, upper, direction_weight * distance);
       pull();
-      lower = moved_by_loops(below, lower_pulls_);
-      upper = moved_by_loops(above, upper_pulls_);
+      lower = moved(below, ways_of_loops(below, lower_pulls_));
+      upper = moved(above, ways_of_loops(above, upper_pulls_));
     }
     return true;
   }
@@ -225,6 +232,7 @@ class Registration {
     std::vector<Pull> back = upper_pulls_;
     for (Pull& pull : back) pull.way = {2 * pull.way.x, 2 * pull.way.y};
     back_ = fit_affine(back);
+    turn_back_ = fit_turn(back);
   }
 
   const Region& lower_;
@@ -235,6 +243,7 @@ class Registration {
   std::vector<Pull> lower_pulls_;
   std::vector<Pull> upper_pulls_;
   Affine back_;
+  double turn_back_ = 0;
 };
 
 /// What is left of two draughts' differences may differ by that share by rounding.
@@ -291,6 +300,7 @@ bool put_back(const Region& lower, const Region& upper, double thickness, Draugh
   TileSet& tiles = draught.registered.tiles;
   draught.frame.put_back(tiles);
   collapse_crossings(lower, upper, tiles, true, most_drift * thickness);
+  ease_twists(lower, upper, tiles, most_twist * thickness);
   return !tiles_meet(lower, upper, tiles, most_pairs);
 }
 
@@ -316,9 +326,10 @@ std::optional<Registered> tile_registered(const Region& lower, const Region& upp
 
 std::optional<Registered> tile_registered_by_places(const Region& lower, const Region& upper,
                                                     std::size_t most_pairs,
-                                                    const IsWanted& is_wanted) {
+                                                    const IsWanted& is_wanted,
+                                                    const LoopWays& ways) {
   Registration registration(lower, upper);
-  if (!registration.match_places()) return {};
+  if (!registration.match_places(ways)) return {};
   auto draught = draw(lower, upper, registration, most_pairs);
   if (!draught || !is_wanted(draught->registered)) return {};
   if (!put_back(lower, upper, registration.thickness(), *draught, most_pairs)) return {};

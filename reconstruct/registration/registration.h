@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "reconstruct/clean/region.h"
 #include "reconstruct/tile/tiles.h"
@@ -47,10 +48,16 @@ using IsWanted = std::function<bool(const Registered&)>;
 
 /// The same for regions with any loops, as where a part forks: each stretch of a loop is matched
 /// with that of the other region which is nearest to it by place and direction, so that loops go
-/// their own ways. What moves by more than it is wide is matched wrongly.
+/// their own ways. What moves by more than it is wide is matched wrongly, unless `ways` tell about
+/// how far the loops of each region are to be moved towards the other one: none, or one for each.
+struct LoopWays {
+  std::vector<cdt::Point> lower;
+  std::vector<cdt::Point> upper;
+};
 [[nodiscard]] std::optional<Registered> tile_registered_by_places(const Region& lower,
                                                                   const Region& upper,
                                                                   std::size_t most_pairs,
-                                                                  const IsWanted& is_wanted);
+                                                                  const IsWanted& is_wanted,
+                                                                  const LoopWays& ways = {});
 
 }  // namespace loft

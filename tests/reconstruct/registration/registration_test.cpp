@@ -15,6 +15,7 @@
 
 #include "cdt/check.h"
 #include "mesh/measure.h"
+#include "mesh/vec3.h"
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/reconstruction.h"
@@ -175,6 +176,23 @@ TEST(Registration, IsReportedAsSuch) {
   }
 }
 
+TEST(Registration, SaysHowFarAPartTurned) {
+  const std::vector<Point> bar{{-20, -0.5}, {20, -0.5}, {20, 0.5}, {-20, 0.5}};
+  std::vector<Point> other;
+  for (const Point p : bar)
+    other.push_back(
+        {p.x * std::cos(0.1) - p.y * std::sin(0.1), p.x * std::sin(0.1) + p.y * std::cos(0.1)});
+  Options options;
+  options.reports_slabs = true;
+  const Reconstructed made =
+      reconstruct(std::vector<Slice>{{0, {{bar, ""}}}, {20, {{other, ""}}}}, options);
+  ASSERT_EQ(made.slabs.at(0).links.size(), 1U);
+  const LinkReport& link = made.slabs[0].links[0];
+  EXPECT_EQ(link.reason, LinkReason::registered);
+  EXPECT_NEAR(link.turn, 0.1 * 180 / pi, 0.5);
+  EXPECT_NEAR(link.confidence, link.overlap / 1.1, 0.02);
+}
+
 Region region_of(const Slice& slice) {
   std::vector<ContourSource> sources;
   for (const Contour& contour : slice.contours)
@@ -253,6 +271,34 @@ TEST(Registration, KnowsHowFarAPartTurns) {
   EXPECT_NEAR(made->motion.turn, 0.3, 0.1);
   EXPECT_NEAR(made->motion.shift.y, 2, 0.3);
   EXPECT_LT(made->difference, 0.1 * (160 + 160));
+}
+
+/// What tiles between two regions enclose, by what they cover at their heights.
+double enclosed(const Region& lower, const Region& upper, const TileSet& tiles) {
+  double sum = (upper.z - lower.z) * area(upper);
+  for (const Tile& tile : tiles.tiles) {
+    std::array<Vec3, 3> p;
+    for (unsigned i = 0; i < 3; ++i) p[i] = place_of(lower, upper, tiles.inner, tile.nodes[i]);
+    const Vec3 normal = cross(minus(p[1], p[0]), minus(p[2], p[0]));
+    sum += normal[2] / 2 * ((p[0][2] + p[1][2] + p[2][2]) / 3 - lower.z);
+  }
+  return sum;
+}
+
+/// What is between the hyperbolic paraboloids through a bar's edges and its sides, turned.
+TEST(Registration, TwistedQuadsBulgeToNeitherSide) {
+  for (const double angle : {0.2, -0.2}) {
+    std::vector<Point> bar{{-10, -3}, {10, -3}, {10, 3}, {-10, 3}};
+    std::vector<Point> other;
+    for (const Point p : bar)
+      other.push_back({p.x * std::cos(angle) - p.y * std::sin(angle),
+                       p.x * std::sin(angle) + p.y * std::cos(angle)});
+    const Region lower = region_of(bar);
+    const Region upper = region_of(other, 5);
+    const auto made = tile_registered(lower, upper, one_offset, any_number);
+    ASSERT_TRUE(made);
+    EXPECT_NEAR(enclosed(lower, upper, made->tiles), 600 * (2 + std::cos(angle)) / 3, 1e-9);
+  }
 }
 
 TEST(Matching, FindsWhatATestOfAllStretchesFinds) {

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/link/link_ends.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "reconstruct/link/moves.h"
+#include "reconstruct/link/replace.h"
+
+namespace loft {
+
+namespace {
+
+/// Parts that were moved over each other must overlap that much.
+constexpr double least_overlap = 0.4;
+/// Joining ends to what goes on beside them leaves no more of all their differences than that.
+constexpr double most_of_joined = 0.9;
+
+/// The outer loops of a footprint, or the holes in it.
+Footprint loops(const Region& region, const Footprint& whole, bool is_solid, bool is_outer) {
+  Footprint chosen;
+  for (const std::uint32_t loop : whole.loops) {
+    Footprint one;
+    one.loops = {loop};
+    if ((measure(region, one) == is_solid) == is_outer) chosen.loops.push_back(loop);
+  }
+  if (!chosen.is_empty()) measure(region, chosen);
+  return chosen;
+}
+
+/// A hollow part beside a solid or a narrower one, as where a shell closes: its outlines are joined
+/// and its holes by themselves, or they end. None if these tiles meet.
+std::optional<Replacement> move_shell(const Region& lower, const Region& upper,
+                                      const Piece& whole) {
+  Piece outside = whole;
+  outside.lower = loops(lower, whole.lower, whole.is_solid, true);
+  outside.upper = loops(upper, whole.upper, whole.is_solid, true);
+  Piece inside = whole;
+  inside.is_solid = !whole.is_solid;
+  inside.lower = loops(lower, whole.lower, whole.is_solid, false);
+  inside.upper = loops(upper, whole.upper, whole.is_solid, false);
+  if (inside.lower.is_empty() && inside.upper.is_empty()) return std::nullopt;
+  outside.shift = inside.shift = offset(outside);
+  auto outer = move_by_shift(lower, upper, std::move(outside));
+  auto inner = move_by_shift(lower, upper, std::move(inside));
+  if (!outer || !inner || overlap(outer->piece, outer->difference) < least_overlap)
+    return std::nullopt;
+  // As if the outer ones were there before: one more test of the same kind.
+  Replacement shell = replacement(std::move(*outer), {});
+  std::vector<Replacement> more;
+  more.push_back(replacement(std::move(*inner), {}));
+  if (!replace(lower, upper, shell.tiles, shell.pieces, more)) return std::nullopt;
+  return shell;
+}
+
+/// The pieces that links join, directly or not: those of one with the same number, that of the
+/// first of them.
+std::vector<std::uint32_t> groups(std::size_t count, std::span<const EndLink> links) {
+  std::vector<std::uint32_t> group(count);
+  std::iota(group.begin(), group.end(), 0U);
+  const auto first = [&](std::uint32_t i) {
+    while (group[i] != i) i = group[i];
+    return i;
+  };
+  for (const EndLink& link : links) {
+    const std::uint32_t a = first(link.lower);
+    const std::uint32_t b = first(link.upper);
+    group[std::max(a, b)] = std::min(a, b);
+  }
+  for (std::uint32_t i = 0; i < count; ++i) group[i] = group[group[i]];
+  return group;
+}
+
+void add(Footprint& sum, const Footprint& more) {
+  sum.loops.insert(sum.loops.end(), more.loops.begin(), more.loops.end());
+}
+
+/// Towards what their links join them to: the ways of the loops of some pieces' footprints.
+std::vector<cdt::Point> ways_of_ends(const Pieces& pieces, std::span<const EndLink> links,
+                                     Level level, std::span<const std::uint32_t> loops) {
+  std::vector<cdt::Point> ways(loops.size());
+  for (const EndLink& link : links) {
+    const bool is_lower = level == Level::lower;
+    const Piece& own = pieces.pieces[is_lower ? link.lower : link.upper];
+    const Piece& joined = pieces.pieces[is_lower ? link.upper : link.lower];
+    if (!own.is_end()) continue;
+    const cdt::Point from = own.footprint(level).centroid;
+    const cdt::Point to = joined.footprint(other(level)).centroid;
+    for (const std::uint32_t loop : own.footprint(level).loops) {
+      const auto place = std::ranges::lower_bound(loops, loop);
+      if (place != loops.end() && *place == loop)
+        ways[static_cast<std::size_t>(place - loops.begin())] = {to.x - from.x, to.y - from.y};
+    }
+  }
+  return ways;
+}
+
+/// Ends, and what goes on beside them, as one piece. None if no more than they are by themselves.
+std::optional<Replacement> join(const Region& lower, const Region& upper, const Pieces& pieces,
+                                std::span<const EndLink> links, std::span<const double> differences,
+                                std::span<const std::uint32_t> members) {
+  Piece whole;
+  whole.is_solid = pieces.pieces[members.front()].is_solid;
+  double before = 0;
+  for (const std::uint32_t i : members) {
+    add(whole.lower, pieces.pieces[i].lower);
+    add(whole.upper, pieces.pieces[i].upper);
+    before += differences[i];
+  }
+  std::ranges::sort(whole.lower.loops);
+  std::ranges::sort(whole.upper.loops);
+  measure(lower, whole.lower);
+  measure(upper, whole.upper);
+  const auto is_wanted = [&](const Registered& made) {
+    return made.difference <= most_of_joined * before;
+  };
+  const LoopWays ways{ways_of_ends(pieces, links, Level::lower, whole.lower.loops),
+                      ways_of_ends(pieces, links, Level::upper, whole.upper.loops)};
+  auto moved = move_by_places(lower, upper, whole, is_wanted, ways);
+  if (!moved) return {};
+  moved->piece.reason = LinkReason::predicted;
+  moved->piece.bends = true;
+  return replacement(std::move(*moved), {members.begin(), members.end()});
+}
+
+/// Two ends as one piece.
+std::optional<Replacement> link_two(const Region& lower, const Region& upper, const Pieces& pieces,
+                                    const EndLink& link) {
+  Piece piece;
+  piece.is_solid = pieces.pieces[link.lower].is_solid;
+  piece.lower = pieces.pieces[link.lower].lower;
+  piece.upper = pieces.pieces[link.upper].upper;
+  piece.reason = link.reason;
+  piece.shift = offset(piece);
+  auto moved = move_by_shift(lower, upper, piece);
+  const std::vector<std::uint32_t> both{link.lower, link.upper};
+  const auto is_wanted = [&](const Registered& made) {
+    return overlap(piece, made.difference) >= least_overlap;
+  };
+  if (moved && overlap(piece, moved->difference) >= least_overlap)
+    return replacement(std::move(*moved), both);
+  if (auto shell = move_shell(lower, upper, piece)) {
+    shell->replaced = both;
+    return shell;
+  }
+  if (auto fitted = move_by_loops(lower, upper, piece, is_wanted))
+    return replacement(std::move(*fitted), both);
+  if (moved && link.reason == LinkReason::order) return replacement(std::move(*moved), both);
+  return {};
+}
+
+}  // namespace
+
+void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
+               std::span<const EndLink> links) {
+  std::vector<Replacement> replacements;
+  const std::vector<std::uint32_t> group = groups(pieces.pieces.size(), links);
+  std::vector<std::vector<std::uint32_t>> members(group.size());
+  for (std::uint32_t i = 0; i < group.size(); ++i) members[group[i]].push_back(i);
+  const auto are_ends = [&](const EndLink& link) {
+    return pieces.pieces[link.lower].is_end() && pieces.pieces[link.upper].is_end();
+  };
+  std::vector<double> before;
+  std::vector<bool> is_joined(group.size());
+  for (const EndLink& link : links) {
+    const std::uint32_t first = group[link.lower];
+    if (is_joined[first] || (members[first].size() == 2 && are_ends(link))) continue;
+    is_joined[first] = true;
+    if (before.empty()) before = differences(lower, upper, tiles, pieces);
+    auto joined = join(lower, upper, pieces, links, before, members[first]);
+    is_joined[first] = joined.has_value();
+    if (joined) replacements.push_back(std::move(*joined));
+  }
+  for (const EndLink& link : links) {
+    if (is_joined[group[link.lower]] || !are_ends(link)) continue;
+    if (auto linked = link_two(lower, upper, pieces, link))
+      replacements.push_back(std::move(*linked));
+  }
+  replace(lower, upper, tiles, pieces, replacements);
+}
+
+}  // namespace loft

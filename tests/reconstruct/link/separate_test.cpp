@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: MIT
+// Two parts side by side that move so far that one comes over where the other was stay two; one
+// that divides, and whose branches overlap it no longer, stays one.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "mesh/measure.h"
+#include "tests/reconstruct/live/edit_script.h"
+#include "tests/reconstruct/solid.h"
+#include "tests/reconstruct/stacks.h"
+
+namespace loft {
+namespace {
+
+using cdt::Point;
+
+constexpr std::size_t corners = 40;
+const double disc_area = corners * std::sin(2 * std::numbers::pi / corners) / 2;
+
+Contour disc(Point centre) { return stacks::circle(corners, 1, centre); }
+
+/// Two discs of radius 1, 2.6 from each other, that move by `step` towards where one of them was.
+std::vector<Slice> pair_of_discs(double step, int count = 4) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < count; ++i)
+    slices.push_back({1.0 * i, {disc({step * i, 0.1 * i}), disc({step * i + 2.6, 0.1 * i})}});
+  return slices;
+}
+
+/// A disc that becomes two, each of which moves by `step` a slice.
+std::vector<Slice> fork_of_discs(double step) {
+  std::vector<Slice> slices{{0, {disc({0, 0})}}, {1, {disc({0, 0})}}};
+  for (int i = 1; i < 4; ++i)
+    slices.push_back({1.0 + i, {disc({-step * i, 0}), disc({step * i, 0.2 * i})}});
+  return slices;
+}
+
+Reconstructed solid(const std::vector<Slice>& slices) {
+  Options options;
+  options.reports_slabs = true;
+  Reconstructed made = reconstruct(slices, options);
+  EXPECT_EQ(solids::faults(made.surface), "");
+  return made;
+}
+
+std::size_t count(const Reconstructed& made, LinkKind kind) {
+  std::size_t sum = 0;
+  for (const SlabReport& slab : made.slabs)
+    sum += static_cast<std::size_t>(std::ranges::count(slab.links, kind, &LinkReport::kind));
+  return sum;
+}
+
+TEST(Separate, PartsThatComeWhereOthersWereStayApart) {
+  for (const double step : {0.7, 0.9, 1.1}) {
+    SCOPED_TRACE(step);
+    const Reconstructed made = solid(pair_of_discs(step));
+    const Measures measures = measure(made.surface);
+    EXPECT_EQ(measures.components, 2U);
+    EXPECT_EQ(measures.genus, 0);
+    EXPECT_NEAR(measures.volume, 6 * disc_area, 1e-9);
+    EXPECT_EQ(count(made, LinkKind::link), 6U);
+  }
+}
+
+TEST(Separate, PartsThatOverlapAsMuchCrosswiseStayTogether) {
+  const Reconstructed made = solid(pair_of_discs(1.3, 2));
+  EXPECT_EQ(count(made, LinkKind::tangle), 1U);
+}
+
+TEST(Separate, EditsLeadToTheSameSurfaceAsTheWholeStack) {
+  constexpr std::uint64_t seed = 3;
+  Reconstruction live;
+  edits::RandomEdits random(pair_of_discs(1), seed);
+  for (int i = 0; i < 12; ++i) {
+    ASSERT_EQ(random.next(live), "") << "seed " << seed << " edit " << i;
+    ASSERT_EQ(edits::difference(live, {}), "") << "seed " << seed << " edit " << i;
+  }
+}
+
+TEST(Joins, BranchesThatLeaveTheTrunkAtOnceAreJoinedToIt) {
+  for (const double step : {2.05, 2.1, 2.2}) {
+    SCOPED_TRACE(step);
+    const Reconstructed made = solid(fork_of_discs(step));
+    const Measures measures = measure(made.surface);
+    EXPECT_EQ(measures.components, 1U);
+    EXPECT_EQ(measures.genus, 0);
+    EXPECT_EQ(count(made, LinkKind::split), 1U);
+  }
+}
+
+TEST(Joins, WhatDoesNotComeFromAPartIsNotJoinedToIt) {
+  std::vector<Slice> slices = fork_of_discs(2.4);
+  for (std::size_t i = 2; i < slices.size(); ++i)
+    slices[i].contours = {disc({-1.0 * double(i), 0}), disc({2.4, 3.0 * double(i)})};
+  EXPECT_EQ(measure(solid(slices).surface).components, 2U);
+}
+
+TEST(Joins, EditsLeadToTheSameSurfaceAsTheWholeStack) {
+  constexpr std::uint64_t seed = 5;
+  Reconstruction live;
+  edits::RandomEdits random(fork_of_discs(2.2), seed);
+  for (int i = 0; i < 16; ++i) {
+    ASSERT_EQ(random.next(live), "") << "seed " << seed << " edit " << i;
+    ASSERT_EQ(edits::difference(live, {}), "") << "seed " << seed << " edit " << i;
+  }
+}
+
+}  // namespace
+}  // namespace loft
