@@ -33,10 +33,10 @@ constexpr double most_drift = 0.25;
 constexpr double direction_weight = 4;
 constexpr double pace_weight = 0.5;
 
-/// Places of a loop, one for each thickness of its length, and stretches between two of them.
+/// Stretches of a loop: some for each thickness of its length, and its edges.
 constexpr double fewest_places = 32;
 constexpr double most_places = 128;
-constexpr std::size_t stretches_of_place = 4;
+constexpr double stretches_of_place = 4;
 
 /// Matched that often, each time with the affine part of what was found before taken out.
 constexpr int rounds = 3;
@@ -52,6 +52,7 @@ struct Outlines {
   std::vector<Stretch> lower;
   std::vector<Stretch> upper;
   std::vector<Match> matches = {};
+  double stretched = 1;  // the lower one's length, if the upper one's is 1
 };
 
 /// Some pairs, seen from one side.
@@ -60,12 +61,13 @@ struct Partner {
   std::uint32_t other;
 };
 
-/// What pulls the stretches of one loop half way towards their partners. Where many
-/// have one partner in common, as what is in one slice only, they are not sure of it.
+/// What pulls the stretches of one loop half way towards their partners. Where many have one
+/// partner in common, as what is in one slice only, they are not sure of it: they are longer
+/// together than it is, with the other loop `stretched`.
 void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
-               std::span<const Partner> partners, std::vector<Pull>& pulls) {
+               std::span<const Partner> partners, double stretched, std::vector<Pull>& pulls) {
   std::vector<double> crowd(other.size());
-  for (const Partner& pair : partners) ++crowd[pair.other];
+  for (const Partner& pair : partners) crowd[pair.other] += own[pair.own].length;
   struct Sum {
     Point place;
     double count = 0;
@@ -77,7 +79,8 @@ void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
     Sum& sum = sums[i];
     sum.place = {sum.place.x + p.x, sum.place.y + p.y};
     ++sum.count;
-    sum.sureness = std::max(sum.sureness, std::min(1.0, 2 / crowd[j]));
+    const double sureness = 2 * stretched * other[j].length / crowd[j];
+    sum.sureness = std::max(sum.sureness, std::min(1.0, sureness));
   }
   for (std::size_t i = 0; i < own.size(); ++i) {
     const auto& [place, count, sureness] = sums[i];
@@ -144,9 +147,8 @@ class Registration {
   /// (Besl and McKay, 1992), where each loop has gone its way since the round before.
   bool match_places() {
     if (!(thickness_ > 0)) return false;
-    const auto count = static_cast<double>(stretches_of_place * places());
-    const AllStretches below = all_stretches(lower_, perimeter(lower_) / count);
-    const AllStretches above = all_stretches(upper_, perimeter(upper_) / count);
+    const AllStretches below = all_stretches(lower_, perimeter(lower_) / stretch_count());
+    const AllStretches above = all_stretches(upper_, perimeter(upper_) / stretch_count());
     outlines_.assign(1, {below.stretches, above.stretches});
     std::vector<Stretch> lower = below.stretches;
     std::vector<Stretch> upper = above.stretches;
@@ -183,44 +185,47 @@ class Registration {
   }
 
  private:
-  [[nodiscard]] std::size_t places() const {
+  [[nodiscard]] double stretch_count() const {
     const double length = std::max(perimeter(lower_), perimeter(upper_));
-    return static_cast<std::size_t>(
-        std::clamp(length / thickness_ + 1e-6, fewest_places, most_places));
+    return stretches_of_place * std::clamp(length / thickness_, fewest_places, most_places);
   }
 
   void sample(const std::vector<LoopPair>& pairs) {
     pairs_ = pairs;
-    const std::size_t places = this->places();
-    for (const LoopPair& pair : pairs)
-      outlines_.push_back({stretches(lower_, pair.lower, stretches_of_place * places),
-                           stretches(upper_, pair.upper, stretches_of_place * places)});
+    const double count = stretch_count();
+    for (const LoopPair& pair : pairs) {
+      const double below = length(lower_, pair.lower);
+      const double above = length(upper_, pair.upper);
+      outlines_.push_back({stretches_by_edges(lower_, pair.lower, below / count),
+                           stretches_by_edges(upper_, pair.upper, above / count),
+                           {},
+                           below / above});
+    }
   }
 
   /// Whether that is not what it was before.
   bool match(Outlines& outlines) const {
-    auto& [lower, upper, matches] = outlines;
+    auto& [lower, upper, matches, stretched] = outlines;
     std::vector<Stretch> moved = upper;
     for (Stretch& stretch : moved) stretch = back_.moved(stretch);
     const double distance = std::max(thickness_ * thickness_, mean_square_distance(lower, moved));
     const std::vector<Match> before = std::exchange(
-        matches, match_outlines(lower, moved, direction_weight * distance, pace_weight * distance,
-                                lower.size() / stretches_of_place));
+        matches, match_outlines(lower, moved, direction_weight * distance, pace_weight * distance));
     return matches != before;
   }
 
   void pull() {
     lower_pulls_.clear();
     upper_pulls_.clear();
-    for (const auto& [lower, upper, matches] : outlines_) {
+    for (const auto& [lower, upper, matches, stretched] : outlines_) {
       std::vector<Partner> from_lower;
       std::vector<Partner> from_upper;
       for (const Match& match : matches) {
         from_lower.push_back({match.lower, match.upper});
         from_upper.push_back({match.upper, match.lower});
       }
-      add_pulls(lower, upper, from_lower, lower_pulls_);
-      add_pulls(upper, lower, from_upper, upper_pulls_);
+      add_pulls(lower, upper, from_lower, stretched, lower_pulls_);
+      add_pulls(upper, lower, from_upper, 1 / stretched, upper_pulls_);
     }
     std::vector<Pull> back = upper_pulls_;
     for (Pull& pull : back) pull.way = {2 * pull.way.x, 2 * pull.way.y};

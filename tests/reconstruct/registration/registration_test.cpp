@@ -290,11 +290,16 @@ TEST(Matching, FindsWhatATestOfAllStretchesFinds) {
 
 TEST(Matching, FindsTheSameLoopAgainWhereverItBegins) {
   const Region region = region_of({{0, 0}, {9, 1}, {12, 6}, {5, 4}, {1, 8}});
-  const auto loop = stretches(region, 0, 256);
-  std::vector<Stretch> later(loop.begin() + 77, loop.end());
-  later.insert(later.end(), loop.begin(), loop.begin() + 77);
-  for (const Match match : match_outlines(loop, later, 1, 1, 64))
-    EXPECT_EQ(match.lower, (match.upper + 77) % 256);
+  for (const double length : {4.0, 0.3, 0.01}) {  // in one go, or by runs first
+    const auto loop = stretches_by_edges(region, 0, length);
+    const auto third = static_cast<std::ptrdiff_t>(loop.size() / 3);
+    std::vector<Stretch> later(loop.begin() + third, loop.end());
+    later.insert(later.end(), loop.begin(), loop.begin() + third);
+    const std::vector<Match> matches = match_outlines(loop, later, 1, 1);
+    EXPECT_EQ(matches.size(), loop.size());
+    for (const Match match : matches)
+      EXPECT_EQ(match.lower, (match.upper + static_cast<std::size_t>(third)) % loop.size());
+  }
 }
 
 /// However it is pulled, what comes out is a region still: no loop crosses another one or itself.
@@ -307,7 +312,7 @@ TEST(Displacement, LeavesARegionARegion) {
     SCOPED_TRACE(i);
     std::vector<Pull> pulls;
     for (std::uint32_t loop = 0; loop < 2; ++loop)
-      for (const Stretch& stretch : stretches(region, loop, 16))
+      for (const Stretch& stretch : stretches_by_edges(region, loop, 25))
         pulls.push_back({stretch, {way(random), way(random)}, 1});
     const auto made = Displacement::fit(region, pulls, 1);
     if (!made) continue;
