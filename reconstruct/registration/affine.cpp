@@ -51,4 +51,19 @@ Affine fit_affine(std::span<const Pull> pulls) {
   return fitted;
 }
 
+double turn(std::span<const Pull> pulls, double times) {
+  const Affine fitted = fit_affine(pulls);
+  double sine = 0;
+  double cosine = 0;
+  for (const Pull& pull : pulls) {
+    const double x = pull.stretch.middle.x - fitted.centre.x;
+    const double y = pull.stretch.middle.y - fitted.centre.y;
+    const double u = x + times * (pull.way.x - fitted.shift.x);
+    const double v = y + times * (pull.way.y - fitted.shift.y);
+    sine += pull.weight * (x * v - y * u);
+    cosine += pull.weight * (x * u + y * v);
+  }
+  return std::atan2(sine, cosine);
+}
+
 }  // namespace loft

@@ -33,4 +33,8 @@ struct Affine {
 /// The least squares of the pulls; a shift alone where they are on one line.
 [[nodiscard]] Affine fit_affine(std::span<const Pull> pulls);
 
+/// How far pulls turn what they pull, if they are gone `times` times: by least squares, of what is
+/// as rigid as it can be (Kabsch, 1976).
+[[nodiscard]] double turn(std::span<const Pull> pulls, double times);
+
 }  // namespace loft

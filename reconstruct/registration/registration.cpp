@@ -139,8 +139,7 @@ class Registration {
   [[nodiscard]] std::span<const Pull> lower_pulls() const { return lower_pulls_; }
   [[nodiscard]] std::span<const Pull> upper_pulls() const { return upper_pulls_; }
   [[nodiscard]] Motion motion() const {
-    const auto& [centre, shift, along_x, along_y] = back_;
-    return {{-shift.x, -shift.y}, -std::atan2(along_x.y - along_y.x, 2 + along_x.x + along_y.y)};
+    return {{-back_.shift.x, -back_.shift.y}, -turn(upper_pulls_, 2)};
   }
 
   /// Whatever loops they have: each stretch with the nearest one, as iterated closest points do
