@@ -139,7 +139,8 @@ class Registration {
   [[nodiscard]] std::span<const Pull> lower_pulls() const { return lower_pulls_; }
   [[nodiscard]] std::span<const Pull> upper_pulls() const { return upper_pulls_; }
   [[nodiscard]] Motion motion() const {
-    return {{-back_.shift.x, -back_.shift.y}, -turn(upper_pulls_, 2)};
+    return {{lower_half_.shift.x - upper_half_.shift.x, lower_half_.shift.y - upper_half_.shift.y},
+            (turn(lower_pulls_, 2) - turn(upper_pulls_, 2)) / 2};
   }
 
   /// Whatever loops they have: each stretch with the nearest one, as iterated closest points do
@@ -167,7 +168,8 @@ class Registration {
     const auto pairs = pair_loops(lower_, upper_, offset);
     if (!pairs) return false;
     sample(*pairs);
-    back_ = {{}, {-offset.x, -offset.y}, {}, {}};
+    lower_half_ = {{}, {offset.x / 2, offset.y / 2}, {}, {}};
+    upper_half_ = {{}, {-offset.x / 2, -offset.y / 2}, {}, {}};
     for (int round = 0; round < rounds; ++round) {
       bool is_changed = false;
       for (Outlines& outlines : outlines_) is_changed |= match(outlines);
@@ -205,11 +207,13 @@ class Registration {
   /// Whether that is not what it was before.
   bool match(Outlines& outlines) const {
     auto& [lower, upper, matches, stretched] = outlines;
-    std::vector<Stretch> moved = upper;
-    for (Stretch& stretch : moved) stretch = back_.moved(stretch);
-    const double distance = std::max(thickness_ * thickness_, mean_square_distance(lower, moved));
+    std::vector<Stretch> below = lower;
+    std::vector<Stretch> above = upper;
+    for (Stretch& stretch : below) stretch = lower_half_.moved(stretch);
+    for (Stretch& stretch : above) stretch = upper_half_.moved(stretch);
+    const double distance = std::max(thickness_ * thickness_, mean_square_distance(below, above));
     const std::vector<Match> before = std::exchange(
-        matches, match_outlines(lower, moved, direction_weight * distance, pace_weight * distance));
+        matches, match_outlines(below, above, direction_weight * distance, pace_weight * distance));
     return matches != before;
   }
 
@@ -226,9 +230,8 @@ class Registration {
       add_pulls(lower, upper, from_lower, stretched, lower_pulls_);
       add_pulls(upper, lower, from_upper, 1 / stretched, upper_pulls_);
     }
-    std::vector<Pull> back = upper_pulls_;
-    for (Pull& pull : back) pull.way = {2 * pull.way.x, 2 * pull.way.y};
-    back_ = fit_affine(back);
+    lower_half_ = fit_affine(lower_pulls_);
+    upper_half_ = fit_affine(upper_pulls_);
   }
 
   const Region& lower_;
@@ -238,7 +241,8 @@ class Registration {
   std::vector<Outlines> outlines_;
   std::vector<Pull> lower_pulls_;
   std::vector<Pull> upper_pulls_;
-  Affine back_;
+  Affine lower_half_;  // half way to the other region
+  Affine upper_half_;
 };
 
 /// What is left of two draughts' differences may differ by that share by rounding.
