@@ -129,6 +129,33 @@ TEST(Turned, CornersOnASideKeepTheHeightsOfTheirChords) {
   }
 }
 
+TEST(Turned, AnEdgeWithinAWallTouchesItWhicheverWayItWasRounded) {
+  // Three corners of the upper outline lie on a side of the lower one, but for rounding. A crossing
+  // was pulled into one of them, so that an edge ran within the wall there.
+  const std::vector<Slice> slices{{0, {{{{2.1, -2.1}, {6.9, -1.5}, {2.3, 2.7}}, {}}}},
+                                  {1, {{{{2.9, -2}, {5.3, -1.7}, {6.1, -1.6}, {5.1, 0.7}}, {}}}}};
+  for (const double angle : angles(50)) expect_same(slices, angle);
+}
+
+TEST(Turned, ANotchInASideThatIsCommonKeepsItsSheet) {
+  // Along the side there are slivers by rounding, beside which it could not be split.
+  const Contour whole{{{0, 0}, {27.618, 0}, {27.618, 15.333}, {0, 15.333}}, {}};
+  const Contour notched{{{1, 1},
+                         {27.618, 5.2678},
+                         {27.618, 10.179719},
+                         {21.7754, 10.1572},
+                         {23.148, 10.464678},
+                         {24.258, 10.649571},
+                         {25.374, 10.779361},
+                         {26.496, 10.859806},
+                         {27.618, 10.883923},
+                         {27.618, 15.333},
+                         {1, 15}},
+                        {}};
+  const std::vector<Slice> slices{{7, {whole}}, {9, {notched}}};
+  for (const double angle : angles(50)) expect_same(slices, angle);
+}
+
 // --- Random stacks ---
 
 using Random = std::mt19937_64;
@@ -203,22 +230,30 @@ std::vector<Slice> neighbours(Random& random) {
   return slices;
 }
 
+void expect_same_of_seed(std::uint64_t seed) {
+  Random random(seed);
+  const auto kind = seed % 3;
+  const std::vector<Slice> slices = kind == 0   ? cells(random)
+                                    : kind == 1 ? blobs(random)
+                                                : neighbours(random);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  try {
+    expect_same(slices, uniform(random, 0, 2 * pi));
+  } catch (const InputError&) {
+    // Fewer than two slices with an area.
+  }
+}
+
 TEST(Turned, AnyStackKeepsItsLinksItsGenusAndItsVolume) {
   const char* count = std::getenv("LOFT_TURNED_COUNT");
   const std::uint64_t seeds = count == nullptr ? 60 : std::strtoull(count, nullptr, 10);
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    Random random(seed);
-    const auto kind = seed % 3;
-    const std::vector<Slice> slices = kind == 0   ? cells(random)
-                                      : kind == 1 ? blobs(random)
-                                                  : neighbours(random);
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    try {
-      expect_same(slices, uniform(random, 0, 2 * pi));
-    } catch (const InputError&) {
-      // Fewer than two slices with an area.
-    }
-  }
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) expect_same_of_seed(seed);
+}
+
+TEST(Turned, PlacesThatAreAsNearToSeveralOthersGoToTheMiddleOfThem) {
+  // Cells that are drawn over others: which of two sides is nearer was left to rounding, and with
+  // it the volume, by up to a fifth.
+  for (const std::uint64_t seed : {78, 342, 417, 423, 555, 909, 948}) expect_same_of_seed(seed);
 }
 
 }  // namespace
