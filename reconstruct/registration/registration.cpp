@@ -52,7 +52,6 @@ struct Outlines {
   std::vector<Stretch> lower;
   std::vector<Stretch> upper;
   std::vector<Match> matches = {};
-  double stretched = 1;  // the lower one's length, if the upper one's is 1
 };
 
 /// Some pairs, seen from one side.
@@ -61,13 +60,12 @@ struct Partner {
   std::uint32_t other;
 };
 
-/// What pulls the stretches of one loop half way towards their partners. Where many have one
-/// partner in common, as what is in one slice only, they are not sure of it: they are longer
-/// together than it is, with the other loop `stretched`.
+/// What pulls the stretches of one loop half way towards their partners. Where many
+/// have one partner in common, as what is in one slice only, they are not sure of it.
 void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
-               std::span<const Partner> partners, double stretched, std::vector<Pull>& pulls) {
+               std::span<const Partner> partners, std::vector<Pull>& pulls) {
   std::vector<double> crowd(other.size());
-  for (const Partner& pair : partners) crowd[pair.other] += own[pair.own].length;
+  for (const Partner& pair : partners) ++crowd[pair.other];
   struct Sum {
     Point place;
     double count = 0;
@@ -79,8 +77,7 @@ void add_pulls(std::span<const Stretch> own, std::span<const Stretch> other,
     Sum& sum = sums[i];
     sum.place = {sum.place.x + p.x, sum.place.y + p.y};
     ++sum.count;
-    const double sureness = 2 * stretched * other[j].length / crowd[j];
-    sum.sureness = std::max(sum.sureness, std::min(1.0, sureness));
+    sum.sureness = std::max(sum.sureness, std::min(1.0, 2 / crowd[j]));
   }
   for (std::size_t i = 0; i < own.size(); ++i) {
     const auto& [place, count, sureness] = sums[i];
@@ -194,19 +191,14 @@ class Registration {
   void sample(const std::vector<LoopPair>& pairs) {
     pairs_ = pairs;
     const double count = stretch_count();
-    for (const LoopPair& pair : pairs) {
-      const double below = length(lower_, pair.lower);
-      const double above = length(upper_, pair.upper);
-      outlines_.push_back({stretches_by_edges(lower_, pair.lower, below / count),
-                           stretches_by_edges(upper_, pair.upper, above / count),
-                           {},
-                           below / above});
-    }
+    for (const auto& [below, above] : pairs)
+      outlines_.push_back({stretches_by_edges(lower_, below, length(lower_, below) / count),
+                           stretches_by_edges(upper_, above, length(upper_, above) / count)});
   }
 
   /// Whether that is not what it was before.
   bool match(Outlines& outlines) const {
-    auto& [lower, upper, matches, stretched] = outlines;
+    auto& [lower, upper, matches] = outlines;
     std::vector<Stretch> below = lower;
     std::vector<Stretch> above = upper;
     for (Stretch& stretch : below) stretch = lower_half_.moved(stretch);
@@ -220,15 +212,15 @@ class Registration {
   void pull() {
     lower_pulls_.clear();
     upper_pulls_.clear();
-    for (const auto& [lower, upper, matches, stretched] : outlines_) {
+    for (const auto& [lower, upper, matches] : outlines_) {
       std::vector<Partner> from_lower;
       std::vector<Partner> from_upper;
       for (const Match& match : matches) {
         from_lower.push_back({match.lower, match.upper});
         from_upper.push_back({match.upper, match.lower});
       }
-      add_pulls(lower, upper, from_lower, stretched, lower_pulls_);
-      add_pulls(upper, lower, from_upper, 1 / stretched, upper_pulls_);
+      add_pulls(lower, upper, from_lower, lower_pulls_);
+      add_pulls(upper, lower, from_upper, upper_pulls_);
     }
     lower_half_ = fit_affine(lower_pulls_);
     upper_half_ = fit_affine(upper_pulls_);
