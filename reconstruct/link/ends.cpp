@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/box_tree.h"
+#include "reconstruct/link/bounds.h"
 
 namespace loft {
 
@@ -27,7 +28,7 @@ constexpr double least_likeness = 0.5;  // of areas
 constexpr double most_beside = 0.25;
 constexpr double least_of_joined = 0.5;  // of the end's area, that of what it is joined to
 /// Boxes for these are larger by that share of all that is in them: they must not miss a pair.
-constexpr double rounding_of_reach = 0x1p-40;
+constexpr double rounding_of_reach = 0x1p-28;
 
 double length(Point p) { return std::hypot(p.x, p.y); }
 Point difference(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
@@ -161,11 +162,11 @@ class Matching {
   [[nodiscard]] double off_outline(const End& end, const Footprint& far) const {
     const Point way = difference(far.centroid, end.footprint->centroid);
     const double shift = length(way);
-    const double off = error(end, way) - far.radius;
-    const bool is_possible = shift <= max_shift_.value_or(shift) &&
-                             off <= most_beside * end.radius &&
-                             far.area >= least_of_joined * end.footprint->area;
-    return is_possible ? off : std::numeric_limits<double>::infinity();
+    const double off = error(end, way);
+    const bool is_possible = is_within(shift, max_shift_.value_or(shift)) &&
+                             is_within(off, far.radius + most_beside * end.radius) &&
+                             is_within(least_of_joined * end.footprint->area, far.area);
+    return is_possible ? off - far.radius : std::numeric_limits<double>::infinity();
   }
 
   /// Meets all targets that are not too far.
@@ -219,8 +220,8 @@ class Matching {
   /// Whether a part shrinks as fast as one that ends in this slab.
   [[nodiscard]] bool is_closing(const End& end) const {
     return end.trend && end.footprint->loops.size() == 1 &&
-           end.radius * end.radius * (end.trend->gap + slab_.gap) <=
-               end.trend->radius * end.trend->radius * slab_.gap;
+           is_within(end.radius * end.radius * (end.trend->gap + slab_.gap),
+                     end.trend->radius * end.trend->radius * slab_.gap);
   }
 
   void find_pairs() {
@@ -246,20 +247,21 @@ class Matching {
     if (a.is_solid != b.is_solid || is_forbidden(a.piece, b.piece)) return;
     const double likeness = std::min(a.footprint->area, b.footprint->area) /
                             std::max(a.footprint->area, b.footprint->area);
-    if (likeness < least_likeness) return;
+    if (!is_within(least_likeness, likeness)) return;
     const double sizes = a.radius + b.radius;
     const Point way = difference(b.footprint->centroid, a.footprint->centroid);
     const double shift = length(way);
-    if (max_shift_ && shift > *max_shift_) return;
+    if (max_shift_ && !is_within(shift, *max_shift_)) return;
     const double unlikeness = 1 - likeness;
     if (!a.trend && !b.trend) {
-      if (!a.is_speck && !b.is_speck && shift <= max_shift_.value_or(farthest_near * sizes))
+      if (!a.is_speck && !b.is_speck &&
+          is_within(shift, max_shift_.value_or(farthest_near * sizes)))
         pairs_.push_back({shift / sizes + unlikeness, i, j, LinkReason::nearest});
       return;
     }
     const double off = std::max(error(a, way), error(b, {-way.x, -way.y}));
-    if (shift <= max_shift_.value_or(farthest_predicted * sizes) &&
-        off <= most_error * sizes + most_error_of_shift * shift)
+    if (is_within(shift, max_shift_.value_or(farthest_predicted * sizes)) &&
+        is_within(off, most_error * sizes + most_error_of_shift * shift))
       pairs_.push_back({off / sizes + unlikeness, i, j, LinkReason::predicted});
   }
 

@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "reconstruct/link/bounds.h"
 #include "reconstruct/link/moves.h"
 #include "reconstruct/link/replace.h"
 
@@ -44,7 +45,7 @@ std::optional<Replacement> move_shell(const Region& lower, const Region& upper,
   outside.shift = inside.shift = offset(outside);
   auto outer = move_by_shift(lower, upper, std::move(outside));
   auto inner = move_by_shift(lower, upper, std::move(inside));
-  if (!outer || !inner || overlap(outer->piece, outer->difference) < least_overlap)
+  if (!outer || !inner || !is_within(least_overlap, overlap(outer->piece, outer->difference)))
     return std::nullopt;
   // As if the outer ones were there before: one more test of the same kind.
   Replacement shell = replacement(std::move(*outer), {});
@@ -113,7 +114,7 @@ std::optional<Replacement> join(const Region& lower, const Region& upper, const 
   measure(lower, whole.lower);
   measure(upper, whole.upper);
   const auto is_wanted = [&](const Registered& made) {
-    return made.difference <= most_of_joined * before;
+    return is_within(made.difference, most_of_joined * before);
   };
   const LoopWays ways{ways_of_ends(pieces, links, Level::lower, whole.lower.loops),
                       ways_of_ends(pieces, links, Level::upper, whole.upper.loops)};
@@ -136,9 +137,9 @@ std::optional<Replacement> link_two(const Region& lower, const Region& upper, co
   auto moved = move_by_shift(lower, upper, piece);
   const std::vector<std::uint32_t> both{link.lower, link.upper};
   const auto is_wanted = [&](const Registered& made) {
-    return overlap(piece, made.difference) >= least_overlap;
+    return is_within(least_overlap, overlap(piece, made.difference));
   };
-  if (moved && overlap(piece, moved->difference) >= least_overlap)
+  if (moved && is_within(least_overlap, overlap(piece, moved->difference)))
     return replacement(std::move(*moved), both);
   if (auto shell = move_shell(lower, upper, piece)) {
     shell->replaced = both;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "mesh/adjacency.h"
+#include "reconstruct/link/bounds.h"
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/moves.h"
 #include "reconstruct/link/parts.h"
@@ -35,7 +36,7 @@ std::vector<std::uint32_t> group_parts(const PartGraph& graph) {
   DisjointSets sets(most.size());
   for (std::size_t i = 0; i < graph.overlaps.size(); ++i) {
     const auto [a, b] = nodes(graph.overlaps[i]);
-    if (graph.areas[i] >= little * std::min(most[a], most[b])) sets.unite(a, b);
+    if (is_within(little * std::min(most[a], most[b]), graph.areas[i])) sets.unite(a, b);
   }
   std::vector<std::uint32_t> group;
   for (std::uint32_t i = 0; i < most.size(); ++i) group.push_back(sets.find(i));
@@ -76,7 +77,7 @@ std::optional<Replacement> tile_groups(const Region& lower, const Region& upper,
     if (are_moved && group.lower.parts == 1 && group.upper.parts == 1) {
       group.shift = offset(group);
       const double way = std::hypot(group.shift.x, group.shift.y);
-      if (way > max_shift.value_or(way)) return {};
+      if (!is_within(way, max_shift.value_or(way))) return {};
       group.reason = LinkReason::slide;
     }
     auto moved = move_by_shift(lower, upper, std::move(group), most_pairs);

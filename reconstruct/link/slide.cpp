@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesh/vec3.h"
+#include "reconstruct/link/bounds.h"
 #include "reconstruct/link/extract.h"
 #include "reconstruct/link/moves.h"
 #include "reconstruct/link/replace.h"
@@ -130,7 +131,7 @@ double true_difference(const Region& lower, const Region& upper, const Piece& pi
 bool brings_together(const Registered& made, double most_difference,
                      std::optional<double> max_shift) {
   const double way = length(made.motion.shift);
-  return made.difference <= most_difference && way <= max_shift.value_or(way);
+  return is_within(made.difference, most_difference) && is_within(way, max_shift.value_or(way));
 }
 
 /// Moves pieces as their outlines match, where overlay alone has torn them: each outline goes on as
@@ -144,7 +145,7 @@ bool untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
   for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
     if (piece.reason == LinkReason::overlap && is_alike(piece) &&
-        overlap(piece, before[i]) < torn_overlap)
+        !is_within(torn_overlap, overlap(piece, before[i])))
       apart.push_back(i);
   }
   if (apart.empty()) return false;
@@ -155,7 +156,7 @@ bool untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
     if (twice_euler(lower, upper, piece, tiles, tiles_of_apart[i]) >= 0 ||
         !is_plain_surface(tiles, tiles_of_apart[i]))
       continue;
-    if (overlap(piece, true_difference(lower, upper, piece)) >= torn_overlap) continue;
+    if (is_within(torn_overlap, overlap(piece, true_difference(lower, upper, piece)))) continue;
     const auto is_wanted = [&](const Registered& made) {
       return brings_together(made, most_left * before[i], max_shift) &&
              twice_euler(lower, upper, piece, made.tiles, all_of(made.tiles)) == 0;
@@ -178,7 +179,8 @@ bool slide_over(const Region& lower, const Region& upper, TileSet& tiles, Pieces
     if (piece.reason != LinkReason::overlap) continue;
     const double way = length(offset(piece));
     const double size = std::min(piece.lower.radius, piece.upper.radius);
-    if (way > least_slide * size && way <= max_shift.value_or(way)) movable.push_back(i);
+    if (!is_within(way, least_slide * size) && is_within(way, max_shift.value_or(way)))
+      movable.push_back(i);
   }
   const std::size_t most_pairs = most_pairs_of(lower.points.size() + upper.points.size());
   std::vector<Replacement> replacements;
@@ -187,12 +189,12 @@ bool slide_over(const Region& lower, const Region& upper, TileSet& tiles, Pieces
     piece.shift = offset(piece);
     piece.reason = LinkReason::slide;
     const double most = most_left * before[i];
-    if (overlap(piece, before[i]) >= enough_overlap ||
-        std::abs(piece.lower.area - piece.upper.area) > most ||
-        swept(upper, piece.upper, piece.shift) < before[i] - most)
+    if (is_within(enough_overlap, overlap(piece, before[i])) ||
+        !is_within(std::abs(piece.lower.area - piece.upper.area), most) ||
+        !is_within(before[i] - most, swept(upper, piece.upper, piece.shift)))
       continue;
     auto moved = move_by_shift(lower, upper, std::move(piece), most_pairs);
-    if (!moved || moved->difference > most) continue;
+    if (!moved || !is_within(moved->difference, most)) continue;
     replacements.push_back(replacement(std::move(*moved), {i}));
   }
   return replace(lower, upper, tiles, pieces, replacements);
@@ -227,7 +229,7 @@ std::vector<std::uint32_t> loose_pieces(const Pieces& pieces, std::span<const do
   for (std::uint32_t i = 0; i < pieces.pieces.size(); ++i) {
     const Piece& piece = pieces.pieces[i];
     if (piece.is_end() || piece.is_tip() || piece.reason != LinkReason::overlap) continue;
-    if (overlap(piece, before[i]) < most_left_and_overlap) loose.push_back(i);
+    if (!is_within(most_left_and_overlap, overlap(piece, before[i]))) loose.push_back(i);
   }
   return loose;
 }
@@ -252,9 +254,9 @@ bool draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
     const double whole = frustum(lower, upper, piece);
     const double error = std::abs(volume(lower, upper, piece, tiles, tiles_of_loose[i]) - whole);
     const bool is_far =
-        overlap(piece, before[i]) < torn_overlap &&
-        std::abs(piece.lower.area - piece.upper.area) <= most_unexplained * before[i];
-    const bool is_off = error >= least_error * whole;
+        !is_within(torn_overlap, overlap(piece, before[i])) &&
+        is_within(std::abs(piece.lower.area - piece.upper.area), most_unexplained * before[i]);
+    const bool is_off = is_within(least_error * whole, error);
     if (!(is_off || is_far) || is_torn(piece, euler) || !is_plain_surface(tiles, tiles_of_loose[i]))
       continue;
     const double left = std::min(most_left, most_left_and_overlap - overlap(piece, before[i]));
@@ -265,8 +267,9 @@ bool draw_together(const Region& lower, const Region& upper, TileSet& tiles, Pie
     auto moved = move_by_places(lower, upper, piece, is_wanted);
     if (!moved) continue;
     const double now = volume(lower, upper, piece, moved->tiles, all_of(moved->tiles));
-    const bool is_explained = is_far && moved->difference <= most_unexplained * before[i];
-    if (!is_explained && !(is_off && std::abs(now - whole) <= most_error_left * error)) continue;
+    const bool is_explained = is_far && is_within(moved->difference, most_unexplained * before[i]);
+    const bool is_nearer = is_off && is_within(std::abs(now - whole), most_error_left * error);
+    if (!is_explained && !is_nearer) continue;
     moved->piece.reason = LinkReason::registered;
     moved->piece.bends = !is_explained;
     replacements.push_back(replacement(std::move(*moved), {i}));

@@ -51,24 +51,19 @@ Affine fit_affine(std::span<const Pull> pulls) {
   return fitted;
 }
 
-double fit_turn(std::span<const Pull> pulls) {
-  double sum = 0;
-  Point from;
-  Point to;
-  for (const auto& [stretch, way, weight] : pulls) {
-    sum += weight;
-    from = {from.x + weight * stretch.middle.x, from.y + weight * stretch.middle.y};
-    to = {to.x + weight * (stretch.middle.x + way.x), to.y + weight * (stretch.middle.y + way.y)};
+double turn(std::span<const Pull> pulls, double times) {
+  const Affine fitted = fit_affine(pulls);
+  double sine = 0;
+  double cosine = 0;
+  for (const Pull& pull : pulls) {
+    const double x = pull.stretch.middle.x - fitted.centre.x;
+    const double y = pull.stretch.middle.y - fitted.centre.y;
+    const double u = x + times * (pull.way.x - fitted.shift.x);
+    const double v = y + times * (pull.way.y - fitted.shift.y);
+    sine += pull.weight * (x * v - y * u);
+    cosine += pull.weight * (x * u + y * v);
   }
-  double along = 0;
-  double aside = 0;
-  for (const auto& [stretch, way, weight] : pulls) {
-    const Point p{stretch.middle.x - from.x / sum, stretch.middle.y - from.y / sum};
-    const Point q{stretch.middle.x + way.x - to.x / sum, stretch.middle.y + way.y - to.y / sum};
-    along += weight * (p.x * q.x + p.y * q.y);
-    aside += weight * (p.x * q.y - p.y * q.x);
-  }
-  return std::atan2(aside, along);
+  return std::atan2(sine, cosine);
 }
 
 }  // namespace loft

@@ -30,10 +30,11 @@ struct Affine {
   [[nodiscard]] Stretch moved(Stretch stretch) const;
 };
 
-/// The turn of the rigid motion that fits the pulls best, radians, counter-clockwise (Procrustes).
-[[nodiscard]] double fit_turn(std::span<const Pull> pulls);
-
 /// The least squares of the pulls; a shift alone where they are on one line.
 [[nodiscard]] Affine fit_affine(std::span<const Pull> pulls);
+
+/// How far pulls turn what they pull, if they are gone `times` times: by least squares, of what is
+/// as rigid as it can be (Kabsch, 1976).
+[[nodiscard]] double turn(std::span<const Pull> pulls, double times);
 
 }  // namespace loft

@@ -51,13 +51,63 @@ double cross(Point a, Point b, Point c) {
 
 using Entry = Eigen::Triplet<double>;
 
-/// Triangles that are lower than that share of an edge count as being so high.
+/// Triangles that are lower than that share of an edge count as being so high; those that are much
+/// lower, as along a straight border, are there by rounding, and do not count.
 constexpr double least_slope = 1e-6;
+constexpr double slope_by_rounding = 1e-9;
+
+/// How much two points that a side of triangles joins have in common: the sum of the cotangents of
+/// the angles that it is seen at. It is 0 for the diagonal of places on one circle, and the others
+/// are the same then whichever diagonal is there.
+struct Spring {
+  std::uint32_t from;  // less than to
+  std::uint32_t to;
+  double weight;
+};
+
+double longest_squared(const std::array<Point, 3>& at) {
+  double longest = 0;
+  for (unsigned k = 0; k < 3; ++k) {
+    const double x = at[(k + 1) % 3].x - at[k].x;
+    const double y = at[(k + 1) % 3].y - at[k].y;
+    longest = std::max(longest, x * x + y * y);
+  }
+  return longest;
+}
+
+std::vector<Spring> springs(const Region& region, std::span<const Corner> triangles) {
+  std::vector<Spring> all;
+  for (const Corner& t : triangles) {
+    const std::array<Point, 3> at{region.points[t[0]], region.points[t[1]], region.points[t[2]]};
+    const double area = cross(at[0], at[1], at[2]);
+    if (area <= slope_by_rounding * longest_squared(at)) continue;
+    for (unsigned k = 0; k < 3; ++k) {
+      const Point p = at[k];
+      const Point q = at[(k + 1) % 3];
+      const Point r = at[(k + 2) % 3];
+      const double squared = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
+      const double inner = (p.x - r.x) * (q.x - r.x) + (p.y - r.y) * (q.y - r.y);
+      const auto [from, to] = std::minmax(t[k], t[(k + 1) % 3]);
+      all.push_back({from, to, inner / std::max(2 * area, least_slope * squared)});
+    }
+  }
+  const auto ends = [](const Spring& spring) { return std::pair(spring.from, spring.to); };
+  std::ranges::stable_sort(all, {}, ends);
+  std::vector<Spring> whole;
+  for (const Spring& spring : all) {
+    if (!whole.empty() && ends(whole.back()) == ends(spring)) {
+      whole.back().weight += spring.weight;
+    } else {
+      whole.push_back(spring);
+    }
+  }
+  return whole;
+}
 
 /// The normal equations of the pulls and of the smoothness, solved.
-std::optional<std::vector<Point>> solve(const Region& region, std::span<const Corner> triangles,
+std::optional<std::vector<Point>> solve(std::size_t point_count, std::span<const Spring> springs,
                                         std::span<const Pull> pulls, double softness) {
-  const auto count = static_cast<Eigen::Index>(region.points.size());
+  const auto count = static_cast<Eigen::Index>(point_count);
   std::vector<Entry> entries;
   Eigen::MatrixX2d right = Eigen::MatrixX2d::Zero(count, 2);
   const auto add = [&](std::uint32_t i, std::uint32_t j, double value) {
@@ -73,23 +123,11 @@ std::optional<std::vector<Point>> solve(const Region& region, std::span<const Co
       for (const auto& [j, other] : ends) add(i, j, weight * share * other);
     }
   }
-  for (const Corner& t : triangles) {
-    const std::array<Point, 3> at{region.points[t[0]], region.points[t[1]], region.points[t[2]]};
-    const double area = cross(at[0], at[1], at[2]);
-    for (unsigned k = 0; k < 3; ++k) {
-      const Point p = at[k];
-      const Point q = at[(k + 1) % 3];
-      const Point r = at[(k + 2) % 3];
-      const double squared = (q.x - p.x) * (q.x - p.x) + (q.y - p.y) * (q.y - p.y);
-      const double inner = (p.x - r.x) * (q.x - r.x) + (p.y - r.y) * (q.y - r.y);
-      const double weight = inner / std::max(2 * area, least_slope * squared);
-      const std::uint32_t i = t[k];
-      const std::uint32_t j = t[(k + 1) % 3];
-      add(i, i, weight);
-      add(j, j, weight);
-      add(i, j, -weight);
-      add(j, i, -weight);
-    }
+  for (const auto& [i, j, weight] : springs) {
+    add(i, i, weight);
+    add(j, j, weight);
+    add(i, j, -weight);
+    add(j, i, -weight);
   }
   Eigen::SparseMatrix<double> matrix(count, count);
   matrix.setFromTriplets(entries.begin(), entries.end());
@@ -113,8 +151,8 @@ bool are_usable(const Region& region, std::span<const Point> ways) {
 /// Shortens ways where loops would cross or turn over.
 class Settling {
  public:
-  Settling(const Region& region, std::span<const Corner> triangles, std::vector<Point>& ways)
-      : region_(region), triangles_(triangles), ways_(ways) {}
+  Settling(const Region& region, std::span<const Spring> springs, std::vector<Point>& ways)
+      : region_(region), springs_(springs), ways_(ways) {}
 
   /// Whether none does in the end.
   bool run() {
@@ -162,37 +200,40 @@ class Settling {
     return std::ranges::find(is_turned_, true) != is_turned_.end();
   }
 
-  /// Half way to the mean of all around.
+  /// Half way to the mean of all around, as far as they have much in common.
   void smooth() {
     std::vector<Point> sums(ways_.size());
-    std::vector<double> counts(ways_.size());
-    for (const Corner& t : triangles_) {
-      for (unsigned k = 0; k < 3; ++k) {
-        const std::uint32_t i = t[k];
-        for (const std::uint32_t j : {t[(k + 1) % 3], t[(k + 2) % 3]}) {
-          sums[i] = {sums[i].x + ways_[j].x, sums[i].y + ways_[j].y};
-          ++counts[i];
-        }
-      }
+    std::vector<double> weights(ways_.size());
+    const auto add = [&](std::uint32_t i, std::uint32_t j, double weight) {
+      sums[i] = {sums[i].x + weight * ways_[j].x, sums[i].y + weight * ways_[j].y};
+      weights[i] += weight;
+    };
+    for (const auto& [i, j, weight] : springs_) {
+      if (weight < least_weight) continue;
+      add(i, j, weight);
+      add(j, i, weight);
     }
     for (std::size_t i = 0; i < ways_.size(); ++i)
-      if (is_turned_[i])
-        ways_[i] = {(ways_[i].x + sums[i].x / counts[i]) / 2,
-                    (ways_[i].y + sums[i].y / counts[i]) / 2};
+      if (is_turned_[i] && weights[i] > 0)
+        ways_[i] = {(ways_[i].x + sums[i].x / weights[i]) / 2,
+                    (ways_[i].y + sums[i].y / weights[i]) / 2};
   }
 
   /// Where something is wrong, and around there.
   void shorten() {
     std::vector<bool> is_near = is_turned_;
-    for (const Corner& t : triangles_)
-      if (is_turned_[t[0]] || is_turned_[t[1]] || is_turned_[t[2]])
-        for (const std::uint32_t i : t) is_near[i] = true;
+    for (const auto& [i, j, weight] : springs_)
+      if (weight >= least_weight && (is_turned_[i] || is_turned_[j]))
+        is_near[i] = is_near[j] = true;
     for (std::size_t i = 0; i < ways_.size(); ++i)
       if (is_near[i]) ways_[i] = {ways_[i].x / 2, ways_[i].y / 2};
   }
 
+  /// Less is none, but for rounding.
+  static constexpr double least_weight = 1e-6;
+
   const Region& region_;
-  std::span<const Corner> triangles_;
+  std::span<const Spring> springs_;
   std::vector<Point>& ways_;
   std::vector<bool> is_turned_;  // points where something is wrong
 };
@@ -212,20 +253,20 @@ Region moved(const Region& region, std::span<const Point> ways) {
 
 std::optional<Displacement> Displacement::fit(const Region& region, std::span<const Pull> pulls,
                                               double softness) {
-  const std::vector<Corner> triangles = loft::triangles(region);
+  const std::vector<Spring> springs = loft::springs(region, triangles(region));
   const Affine affine = fit_affine(pulls);
   std::vector<Pull> rest(pulls.begin(), pulls.end());
   for (Pull& pull : rest) {
     const Point way = affine.way(pull.stretch.middle);
     pull.way = {pull.way.x - way.x, pull.way.y - way.y};
   }
-  auto ways = solve(region, triangles, rest, softness);
+  auto ways = solve(region.points.size(), springs, rest, softness);
   if (ways)
     for (std::size_t i = 0; i < ways->size(); ++i) {
       const Point way = affine.way(region.points[i]);
       (*ways)[i] = {(*ways)[i].x + way.x, (*ways)[i].y + way.y};
     }
-  if (!ways || !are_usable(region, *ways) || !Settling(region, triangles, *ways).run()) return {};
+  if (!ways || !are_usable(region, *ways) || !Settling(region, springs, *ways).run()) return {};
   Displacement made;
   made.ways_ = std::move(*ways);
   return made;

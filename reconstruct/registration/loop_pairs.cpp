@@ -5,8 +5,6 @@
 #include <cmath>
 #include <tuple>
 
-#include "reconstruct/registration/outline.h"
-
 namespace loft {
 
 namespace {
@@ -23,23 +21,24 @@ struct LoopShape {
 };
 
 LoopShape shape(const Region& region, std::uint32_t loop) {
-  constexpr std::size_t count = 64;
   const Point origin = region.points[region.loop(loop)[0]];
   double twice = 0;
+  double length = 0;
   Point sum;
-  for (const Stretch& stretch : stretches(region, loop, count)) {
-    sum = {sum.x + stretch.middle.x - origin.x, sum.y + stretch.middle.y - origin.y};
-  }
   const auto vertices = region.loop(loop);
   Point p = region.points[vertices.back()];
   for (const std::uint32_t v : vertices) {
     const Point q = region.points[v];
+    const double edge = std::hypot(q.x - p.x, q.y - p.y);
+    length += edge;
+    sum = {sum.x + edge * ((p.x + q.x) / 2 - origin.x),
+           sum.y + edge * ((p.y + q.y) / 2 - origin.y)};
     twice += (p.x - origin.x) * (q.y - origin.y) - (p.y - origin.y) * (q.x - origin.x);
     p = q;
   }
   return {twice < 0,
           std::sqrt(std::abs(twice) / 2),
-          {origin.x + sum.x / count, origin.y + sum.y / count}};
+          {origin.x + sum.x / length, origin.y + sum.y / length}};
 }
 
 std::vector<LoopShape> shapes(const Region& region) {

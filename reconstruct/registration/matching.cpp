@@ -3,335 +3,266 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
+#include <utility>
 
-#include "cdt/effort.h"
+#include "reconstruct/registration/courses.h"
 
 namespace loft {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Sums that differ by no more than that share are the same but for rounding: then what comes first
-/// is taken, so that it does not depend on how the loops are turned.
+/// Courses that differ by no more than that share are the same but for rounding.
 constexpr double rounding = 1e-9;
 
-bool is_less(double a, double b) { return a < b - rounding * a; }
+/// Loops of more stretches are matched by runs of them first.
+constexpr std::size_t most_at_once = 640;
+/// How many times as many there are each time that runs are taken apart.
+constexpr std::size_t refinement = 4;
+/// How many stretches, or runs, a course may stray from one that is known.
+constexpr std::size_t slack = 12;
 
-struct Costs {
-  double direction_weight;
-
-  double operator()(const Stretch& a, const Stretch& b) const {
-    const double x = b.middle.x - a.middle.x;
-    const double y = b.middle.y - a.middle.y;
-    const double cosine = a.normal.x * b.normal.x + a.normal.y * b.normal.y;
-    return x * x + y * y + direction_weight * (1 - cosine);
-  }
-};
-
-/// Which way a course came to a pair.
-enum class Step : std::uint8_t { both, lower, upper };
-
-/// Columns of a row: of a stretch of the lower loop, those of the upper one that are looked at.
-struct Range {
-  std::size_t first;
-  std::size_t last;  // behind the range
-};
-
-/// What all rows after one cost at least, and all columns after one: a course goes through each of
-/// them, and pays for a row and for a column by itself.
-struct Rest {
-  const double* of_rows;
-  const double* of_columns;
-};
-
-/// The least course through both loops from a pair to the one before it, once round. Rows are
-/// stretches of the lower loop, columns of the upper one, both counted from where it starts.
-class Course {
+/// For each row of a grid some columns; rows and columns go on for ever, round by round. Columns
+/// are counted from some rounds before, so that there is room below the first.
+class Band {
  public:
-  Course(std::size_t columns, double pace_weight) : pace_weight_(pace_weight), columns_(columns) {}
-
-  /// Its cost; none once no course can cost less than `least`. `costs(row)` are those of the row's
-  /// range. Precondition: ranges overlap from row to row; the first begins with 0, the last ends at
-  /// the end.
-  template <typename CostsOfRow>
-  std::optional<double> find(std::span<const Range> ranges, CostsOfRow&& costs, double least,
-                             const Rest& rest) {
-    ranges_.assign(ranges.begin(), ranges.end());
-    starts_.assign(1, 0);
-    for (const Range range : ranges) starts_.push_back(starts_.back() + range.last - range.first);
-    steps_.resize(starts_.back());
-    before_.assign(columns_ + 1, infinity);
-    row_.assign(columns_ + 1, infinity);
-    before_[0] = 0;
-    for (std::size_t i = 0; i < ranges.size(); ++i) {
-      cdt::spend(1 + (ranges[i].last - ranges[i].first) / cells_of_step);
-      fill(i, costs(i));
-      if (least_in_all(i, rest.of_columns) + rest.of_rows[i] >= least) return {};
+  Band(std::vector<Range> rows, std::size_t columns) : rows_(std::move(rows)), columns_(columns) {
+    std::size_t least = rows_[0].first;
+    for (const Range range : rows_) least = std::min(least, range.first);
+    const std::size_t rounds = least / columns_;
+    for (Range& range : rows_) {
+      range.first = range.first + 2 * columns_ - rounds * columns_;
+      range.last = range.last + 2 * columns_ - rounds * columns_;
     }
-    return before_[columns_];
   }
 
-  /// The pairs of the course that was found last, back from the end.
-  [[nodiscard]] std::vector<Match> pairs() const {
-    std::vector<Match> found;
-    std::size_t i = ranges_.size() - 1;
-    std::size_t j = columns_ - 1;
-    while (true) {
-      found.push_back({static_cast<std::uint32_t>(i), static_cast<std::uint32_t>(j)});
-      if (i == 0 && j == 0) return found;
-      const Step step = steps_[starts_[i] + j - ranges_[i].first];
-      if (step != Step::upper) --i;
-      if (step != Step::lower) --j;
+  [[nodiscard]] std::size_t row_count() const { return rows_.size(); }
+  [[nodiscard]] Range operator[](std::size_t row) const {
+    const std::size_t rounds = row / rows_.size() * columns_;
+    const Range range = rows_[row % rows_.size()];
+    return {range.first + rounds, range.last + rounds};
+  }
+
+  /// Wider by columns and by rows.
+  [[nodiscard]] Band widened() const {
+    const std::size_t count = rows_.size();
+    const std::size_t rows = std::min(slack, count);
+    std::vector<Range> wide;
+    for (std::size_t i = 0; i < count; ++i)
+      wide.push_back({(*this)[i + count - rows].first - columns_ - std::min(slack, columns_),
+                      (*this)[i + rows].last + slack});
+    return {std::move(wide), columns_};
+  }
+
+  /// What is of it in a round from a pair on.
+  [[nodiscard]] std::vector<Range> round(std::size_t row, std::size_t column) const {
+    std::vector<Range> ranges;
+    for (std::size_t i = 0; i <= rows_.size(); ++i) {
+      const Range range = (*this)[row + i];
+      ranges.push_back(
+          {std::max(range.first, column), std::min(range.last, column + columns_ + 1)});
     }
+    return ranges;
   }
 
  private:
-  /// About as many take as long as a test of two triangles.
-  static constexpr std::size_t cells_of_step = 16;
-
-  /// Row i, from that before it; the least in it. A step costs what it leads to, by the length that
-  /// it goes. Column j is at j + 1: the start comes from before all, diagonally and for nothing.
-  void fill(std::size_t i, const double* costs) {
-    const auto [first, last] = ranges_[i];
-    Step* const steps = steps_.data() + starts_[i];
-    const double* const above = before_.data() + first;
-    double* const row = row_.data() + first + 1;
-    for (std::size_t k = 0; k < last - first; ++k) {
-      const double both = above[k] + 2 * costs[k];
-      const double lower = above[k + 1] + costs[k] + pace_weight_;
-      const bool is_lower = is_less(lower, both);
-      row[k] = is_lower ? lower : both;
-      steps[k] = is_lower ? Step::lower : Step::both;
-    }
-    double left = infinity;  // of the pair before in this row
-    for (std::size_t k = 0; k < last - first; ++k) {
-      const double upper = left + costs[k] + pace_weight_;
-      left = row[k];
-      if (is_less(upper, left)) {
-        row[k] = left = upper;
-        steps[k] = Step::upper;
-      }
-    }
-    std::swap(row_, before_);
-    const std::size_t from = i == 0 ? 0 : ranges_[i - 1].first;
-    const std::size_t to = i == 0 ? 1 : ranges_[i - 1].last + 1;
-    std::fill(row_.begin() + static_cast<std::ptrdiff_t>(from),
-              row_.begin() + static_cast<std::ptrdiff_t>(to), infinity);
-  }
-
-  /// What a course through row i costs at least, but for the rows after it.
-  [[nodiscard]] double least_in_all(std::size_t i, const double* rest_of_columns) const {
-    double least = infinity;
-    for (std::size_t j = ranges_[i].first; j < ranges_[i].last; ++j)
-      least = std::min(least, before_[j + 1] + rest_of_columns[j]);
-    return least;
-  }
-
-  double pace_weight_;
+  std::vector<Range> rows_;
   std::size_t columns_;
-  std::vector<Range> ranges_;
-  std::vector<std::size_t> starts_;  // of each row in steps_
-  std::vector<Step> steps_;
-  std::vector<double> before_;
-  std::vector<double> row_;
 };
 
-/// Some of a loop's stretches, at equal distances along it, each for all that are nearest to it.
-struct Sample {
-  std::vector<Stretch> stretches;
-  std::vector<std::size_t> original;
+/// A course from a row of the first round on, as a band. Its last row is its first one, a round
+/// later.
+Band band_of(const std::vector<Range>& course, std::size_t first_row, std::size_t columns) {
+  const std::size_t count = course.size() - 1;
+  std::vector<Range> rows(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t row = first_row + i;
+    const std::size_t rounds = row / count * columns;
+    const std::size_t first = i == 0 ? course.back().first - columns : course[i].first;
+    rows[row % count] = {first + columns - rounds, course[i].last + columns - rounds};
+  }
+  return {std::move(rows), columns};
+}
+
+/// The least course of all, wherever it starts: courses that start between two others need not
+/// cross these (Maes, 1990), and most can be left soon, as they cost more than a good one.
+class LeastCourse {
+ public:
+  explicit LeastCourse(const PairGrid& grid) : grid_(grid), to_come_(grid) {}
+
+  [[nodiscard]] Band find() {
+    const std::size_t columns = grid_.columns();
+    const std::vector<Range> all(grid_.rows() + 1, {0, 2 * columns});
+    guess();
+    const auto first = course(0, all);
+    const std::vector<Range> low = first.value_or(all);
+    std::vector<Range> high = all;
+    if (first)
+      for (std::size_t i = 0; i < high.size(); ++i)
+        high[i] = {low[i].first + columns, low[i].last + columns};
+    search(0, columns, low, high);
+    return band_of(best_, first_row_, columns);
+  }
+
+ private:
+  /// What is the least through a pair of that which is the least through the best pair.
+  void guess() {
+    const std::size_t rows = grid_.rows();
+    const std::size_t columns = grid_.columns();
+    const auto round_from = [&](std::size_t column) {
+      return std::vector<Range>(rows + 1, {column, column + columns + 1});
+    };
+    std::vector<double> memory;
+    const double* const costs = grid_.costs(0, {0, columns}, memory);
+    const auto nearest = static_cast<std::size_t>(std::min_element(costs, costs + columns) - costs);
+    const std::vector<Range> there = Courses(grid_, 0, round_from(nearest)).course();
+    first_row_ = rows / 2;
+    const Courses better(grid_, first_row_, round_from(there[first_row_].first));
+    least_ = better.least();
+    best_ = better.course();
+  }
+
+  /// The least one from a column on, in some ranges; none if it costs no less than what is known.
+  std::optional<std::vector<Range>> course(std::size_t start, std::vector<Range> ranges) {
+    for (Range& range : ranges)
+      range = {std::max(range.first, start), std::min(range.last, start + grid_.columns() + 1)};
+    const Courses courses(grid_, std::move(ranges), to_come_, (1 - rounding) * least_);
+    if (!courses.is_found()) return {};
+    if (courses.least() < (1 - rounding) * least_) {
+      least_ = courses.least();
+      first_row_ = 0;
+      best_ = courses.course();
+    }
+    return courses.course();
+  }
+
+  void search(std::size_t from, std::size_t to, const std::vector<Range>& low,
+              const std::vector<Range>& high) {
+    if (to - from < 2) return;
+    const std::size_t middle = from + (to - from) / 2;
+    std::vector<Range> between;
+    for (std::size_t i = 0; i < low.size(); ++i) between.push_back({low[i].first, high[i].last});
+    const auto found = course(middle, std::move(between));
+    search(from, middle, low, found.value_or(high));
+    search(middle, to, found.value_or(low), high);
+  }
+
+  const PairGrid& grid_;
+  CostToCome to_come_;
+  double least_ = 0;
+  std::size_t first_row_ = 0;  // of the best one
+  std::vector<Range> best_;
 };
 
-Sample sample(std::span<const Stretch> loop, std::size_t count) {
-  Sample made;
-  double whole = 0;
-  for (const Stretch& stretch : loop) whole += stretch.length;
-  const double step = whole / static_cast<double>(std::min(count, loop.size()));
-  double next = step / 2;
-  double way = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    way += loop[i].length;
-    if (way < next && !(i + 1 == loop.size() && made.stretches.empty())) continue;
-    made.stretches.push_back(loop[i]);
-    made.stretches.back().length = step;
-    made.original.push_back(i);
-    while (next <= way) next += step;
+/// The least courses in a band through a pair of another one, which lies in it but for whole
+/// rounds.
+Courses courses_through(const PairGrid& grid, const Band& band, const Band& other,
+                        std::size_t row) {
+  const Range range = other[row];
+  std::size_t column = range.first + (range.last - 1 - range.first) / 2;
+  while (column >= band[row].last) column -= grid.columns();
+  while (column < band[row].first) column += grid.columns();
+  return {grid, row, band.round(row, column)};
+}
+
+/// The least course in a band: through a pair of that which is the least through a pair far away.
+Band settled(const PairGrid& grid, const Band& band) {
+  const std::size_t half = grid.rows() / 2;
+  const Band there =
+      band_of(courses_through(grid, band, band, half).course(), half, grid.columns());
+  return band_of(courses_through(grid, band, there, 0).course(), 0, grid.columns());
+}
+
+/// Runs of a loop's stretches, as one stretch each.
+std::vector<Stretch> runs(std::span<const Stretch> loop, std::size_t length) {
+  std::vector<Stretch> made;
+  for (std::size_t i = 0; i < loop.size(); i += length) {
+    Stretch run = loop[i];
+    run.middle = run.normal = {};
+    run.length = 0;
+    for (const Stretch& part : loop.subspan(i, std::min(length, loop.size() - i))) {
+      const auto add = [&](cdt::Point& sum, cdt::Point more) {
+        sum = {sum.x + part.length * more.x, sum.y + part.length * more.y};
+      };
+      add(run.middle, part.middle);
+      add(run.normal, part.normal);
+      run.length += part.length;
+    }
+    run.middle = {run.middle.x / run.length, run.middle.y / run.length};
+    const double size = std::hypot(run.normal.x, run.normal.y);
+    if (size > 0) run.normal = {run.normal.x / size, run.normal.y / size};
+    made.push_back(run);
   }
   return made;
 }
 
-/// The pair that the coarse course is surest of, and the ranges of the fine one around it.
-struct Band {
-  std::size_t lower_start;
-  std::size_t upper_start;
-  std::vector<Range> ranges;
-};
-
-/// Pairs of a coarse course, turned so that the cheapest comes first, in the order of the course.
-std::vector<Match> from_cheapest(std::vector<Match> course, const Sample& lower,
-                                 const Sample& upper, Costs costs) {
-  std::ranges::reverse(course);
-  const auto cost = [&](const Match& match) {
-    return costs(lower.stretches[match.lower], upper.stretches[match.upper]);
-  };
-  const double least = cost(*std::ranges::min_element(course, {}, cost));
-  const double same = least + rounding * (least + costs.direction_weight);
-  const auto first =
-      std::ranges::find_if(course, [&](const Match& match) { return cost(match) <= same; });
-  std::rotate(course.begin(), first, course.end());
-  return course;
+/// How long runs are of which there are few enough to be matched at once.
+std::size_t run_length(std::size_t count) {
+  std::size_t length = 1;
+  while (count > most_at_once * length) length *= refinement;
+  return length;
 }
 
-Band band(const std::vector<Match>& course, const Sample& lower, const Sample& upper,
-          std::size_t lower_size, std::size_t upper_size) {
-  // How many coarse places a fine course may stray.
-  constexpr std::size_t slack = 4;
-  Band made{lower.original[course.front().lower], upper.original[course.front().upper], {}};
-  const auto place = [](std::size_t original, std::size_t start, std::size_t size) {
-    return (original + size - start) % size;
+/// A band of pairs of runs as one of what these runs consist of: so many columns of `grid` each,
+/// and so many rows.
+Band refined(const Band& band, std::size_t run_columns, const PairGrid& grid,
+             std::size_t rows_of_run, std::size_t columns_of_run) {
+  const auto place = [&](std::size_t run) {
+    const std::size_t inside = run % run_columns * columns_of_run;
+    return run / run_columns * grid.columns() + std::min(inside, grid.columns());
   };
-  const std::size_t reach = slack * (upper_size / upper.stretches.size() + 1);
-  const std::size_t lower_reach = slack * (lower_size / lower.stretches.size() + 1) / 2;
-  made.ranges.assign(lower_size, {upper_size, 0});
-  const auto cover = [&](std::size_t i, std::size_t j) {
-    Range& range = made.ranges[i];
-    range.first = std::min(range.first, j > reach ? j - reach : 0);
-    range.last = std::max(range.last, std::min(upper_size, j + reach + 1));
-  };
-  std::size_t i = 0;
-  std::size_t j = 0;
-  const auto go_to = [&](std::size_t next_i, std::size_t next_j) {
-    const std::size_t steps = std::max<std::size_t>(1, next_i - i);
-    for (std::size_t s = 0; s <= steps && i + s < lower_size; ++s) {
-      cover(i + s, j + (next_j - j) * s / steps);
-      cover(i + s, std::min(next_j, j + (next_j - j) * (s + 1) / steps));
-    }
-    i = next_i;
-    j = next_j;
-  };
-  for (const Match& match : course) {
-    const std::size_t next_i = place(lower.original[match.lower], made.lower_start, lower_size);
-    const std::size_t next_j = place(upper.original[match.upper], made.upper_start, upper_size);
-    if (next_i >= i && next_j >= j) go_to(next_i, next_j);
+  std::vector<Range> fine;
+  for (std::size_t i = 0; i < grid.rows(); ++i) {
+    const Range range = band[i / rows_of_run];
+    fine.push_back({place(range.first), place(range.last - 1) + columns_of_run});
   }
-  go_to(lower_size - 1, upper_size - 1);
-  // Wider by rows, too, and one after the other.
-  std::vector<Range> wide = made.ranges;
-  for (std::size_t row = 0; row < lower_size; ++row) {
-    const std::size_t from = row > lower_reach ? row - lower_reach : 0;
-    const std::size_t to = std::min(lower_size - 1, row + lower_reach);
-    wide[row].first = std::min(made.ranges[from].first, made.ranges[row].first);
-    wide[row].last = std::max(made.ranges[to].last, made.ranges[row].last);
-  }
-  wide.front().first = 0;
-  wide.back().last = upper_size;
-  made.ranges = std::move(wide);
-  return made;
+  return {std::move(fine), grid.columns()};
 }
 
-/// All costs between two loops' places.
-class CostTable {
- public:
-  CostTable(std::span<const Stretch> lower, std::span<const Stretch> upper, Costs costs)
-      : rows_(lower.size()), columns_(upper.size()), least_of_columns_(columns_, infinity) {
-    for (const Stretch& a : lower) {
-      const auto first = static_cast<std::ptrdiff_t>(costs_.size());
-      for (std::size_t j = 0; j < columns_; ++j) {
-        costs_.push_back(costs(a, upper[j]));
-        least_of_columns_[j] = std::min(least_of_columns_[j], costs_.back());
-      }
-      least_of_rows_.push_back(*std::min_element(costs_.begin() + first, costs_.end()));
-      // Once more, to go round from any of them.
-      for (std::size_t j = 0; j < columns_; ++j) costs_.push_back(costs_[costs_.size() - columns_]);
-    }
-    rest_of_rows_.resize(rows_);
-    rest_of_columns_.resize(columns_);
-  }
-
-  /// The costs of row i from a column on, once round.
-  [[nodiscard]] const double* row(std::size_t i, std::size_t start) const {
-    return costs_.data() + 2 * columns_ * i + start;
-  }
-
-  /// For courses from that column on.
-  [[nodiscard]] Rest rest(std::size_t start) {
-    for (std::size_t i = rows_ - 1; i > 0; --i)
-      rest_of_rows_[i - 1] = rest_of_rows_[i] + least_of_rows_[i];
-    for (std::size_t j = columns_ - 1; j > 0; --j)
-      rest_of_columns_[j - 1] = rest_of_columns_[j] + least_of_columns_[(start + j) % columns_];
-    return {rest_of_rows_.data(), rest_of_columns_.data()};
-  }
-
- private:
-  std::size_t rows_;
-  std::size_t columns_;
-  std::vector<double> costs_;
-  std::vector<double> least_of_rows_;
-  std::vector<double> least_of_columns_;
-  std::vector<double> rest_of_rows_;
-  std::vector<double> rest_of_columns_;
-};
-
-/// The least course between all places, wherever it starts, back from its end.
-std::vector<Match> find_coarse(std::span<const Stretch> lower, std::span<const Stretch> upper,
-                               Costs costs, double pace_weight) {
-  // A cost may be below 0 by rounding.
-  constexpr double below_zero = 1e-12;
-  const std::size_t columns = upper.size();
-  CostTable table(lower, upper, costs);
-  const std::vector<Range> all(lower.size(), {0, columns});
-  Course course(columns, pace_weight);
-  double least = infinity;
-  std::vector<Match> best;
-  for (std::size_t start = 0; start < columns; ++start) {
-    const auto costs_of_row = [&](std::size_t i) { return table.row(i, start); };
-    const double bound = least + below_zero * costs.direction_weight;
-    const auto cost = course.find(all, costs_of_row, bound, table.rest(start));
-    if (!cost || !is_less(*cost, least)) continue;
-    least = *cost;
-    best = course.pairs();
-    for (Match& match : best)
-      match.upper = static_cast<std::uint32_t>((match.upper + start) % columns);
-  }
-  return best;
-}
-
-/// The least course between all stretches in a band, back from its end.
-std::vector<Match> find_fine(std::span<const Stretch> lower, std::span<const Stretch> upper,
-                             Costs costs, double pace_weight, const Band& band) {
-  std::vector<double> row;
-  const auto costs_of_row = [&](std::size_t i) {
-    const Stretch& a = lower[(band.lower_start + i) % lower.size()];
-    row.clear();
-    for (std::size_t j = band.ranges[i].first; j < band.ranges[i].last; ++j)
-      row.push_back(costs(a, upper[(band.upper_start + j) % upper.size()]));
-    return row.data();
+/// The pairs of all least courses. Near its start a course cannot stray, so from two starts.
+std::vector<Match> least_pairs(const PairGrid& grid, const Band& course) {
+  const std::size_t rows = grid.rows();
+  const double same = rounding * grid.pace_weight();
+  const Band band = course.widened();
+  std::vector<Match> pairs;
+  const auto take = [&](std::size_t row, std::size_t column) {
+    pairs.push_back({static_cast<std::uint32_t>(row % rows),
+                     static_cast<std::uint32_t>(column % grid.columns())});
   };
-  Course course(upper.size(), pace_weight);
-  const std::vector<double> none(std::max(lower.size(), upper.size()));
-  course.find(band.ranges, costs_of_row, infinity, {none.data(), none.data()});
-  std::vector<Match> pairs = course.pairs();
-  for (auto& [i, j] : pairs) {
-    i = static_cast<std::uint32_t>((i + band.lower_start) % lower.size());
-    j = static_cast<std::uint32_t>((j + band.upper_start) % upper.size());
-  }
+  const std::size_t quarter = rows / 4;
+  const std::size_t half = rows / 2;
+  const Courses from_first = courses_through(grid, band, course, 0);
+  from_first.for_each_least(quarter, quarter + half, rounding * from_first.least() + same, take);
+  const Courses from_half = courses_through(grid, band, course, half);
+  from_half.for_each_least(quarter, quarter + rows - half, rounding * from_half.least() + same,
+                           take);
   return pairs;
 }
 
 }  // namespace
 
 std::vector<Match> match_outlines(std::span<const Stretch> lower, std::span<const Stretch> upper,
-                                  double direction_weight, double pace_weight, std::size_t coarse) {
-  const Costs costs{direction_weight};
-  const Sample below = sample(lower, coarse);
-  const Sample above = sample(upper, coarse);
-  const std::vector<Match> course = from_cheapest(
-      find_coarse(below.stretches, above.stretches, costs, pace_weight), below, above, costs);
-  return find_fine(lower, upper, costs, pace_weight,
-                   band(course, below, above, lower.size(), upper.size()));
+                                  double direction_weight, double pace_weight) {
+  std::size_t row_length = run_length(lower.size());
+  std::size_t column_length = run_length(upper.size());
+  std::vector<Stretch> below = runs(lower, row_length);
+  std::vector<Stretch> above = runs(upper, column_length);
+  const auto grid = [&] { return PairGrid(below, above, direction_weight, pace_weight); };
+  const PairGrid coarse = grid();
+  Band course = LeastCourse(coarse).find();
+  while (row_length > 1 || column_length > 1) {
+    const std::size_t run_columns = above.size();
+    const std::size_t rows_of_run = std::min(row_length, refinement);
+    const std::size_t columns_of_run = std::min(column_length, refinement);
+    row_length /= rows_of_run;
+    column_length /= columns_of_run;
+    below = runs(lower, row_length);
+    above = runs(upper, column_length);
+    const PairGrid finer = grid();
+    course =
+        settled(finer, refined(course, run_columns, finer, rows_of_run, columns_of_run).widened());
+  }
+  return least_pairs(grid(), course);
 }
 
 }  // namespace loft

@@ -73,15 +73,45 @@ StretchTree::Nearest StretchTree::nearest(const Stretch& stretch) const {
   return best;
 }
 
+/// As with equal ones it is rounding that says which is the first, all are taken: so what is made
+/// of them does not depend on how they are turned.
+void StretchTree::all_nearest(const Stretch& stretch, std::vector<std::uint32_t>& found) const {
+  constexpr double rounding = 1e-9;
+  const double least = nearest(stretch).cost;
+  found.clear();
+  gather(0, items_.size(), key(stretch), least + rounding * (least + direction_ * direction_),
+         found);
+}
+
+void StretchTree::gather(std::size_t first, std::size_t last, const Key& wanted, double most,
+                         std::vector<std::uint32_t>& found) const {
+  if (first == last) return;
+  cdt::spend();
+  const std::size_t middle = first + (last - first) / 2;
+  const auto& [key, index, axis] = items_[middle];
+  double cost = 0;
+  for (std::size_t i = 0; i < 4; ++i) cost += (key[i] - wanted[i]) * (key[i] - wanted[i]);
+  if (cost <= most) found.push_back(index);
+  const double beyond = wanted[axis] - key[axis];
+  const bool is_across = beyond * beyond <= most;
+  if (beyond < 0 || is_across) gather(first, middle, wanted, most, found);
+  if (beyond >= 0 || is_across) gather(middle + 1, last, wanted, most, found);
+}
+
 std::vector<Match> match_nearest(std::span<const Stretch> lower, std::span<const Stretch> upper,
                                  double direction_weight) {
   const StretchTree below(lower, direction_weight);
   const StretchTree above(upper, direction_weight);
   std::vector<Match> found;
-  for (std::uint32_t i = 0; i < lower.size(); ++i)
-    found.push_back({i, above.nearest(lower[i]).index});
-  for (std::uint32_t i = 0; i < upper.size(); ++i)
-    found.push_back({below.nearest(upper[i]).index, i});
+  std::vector<std::uint32_t> nearest;
+  for (std::uint32_t i = 0; i < lower.size(); ++i) {
+    above.all_nearest(lower[i], nearest);
+    for (const std::uint32_t j : nearest) found.push_back({i, j});
+  }
+  for (std::uint32_t j = 0; j < upper.size(); ++j) {
+    below.all_nearest(upper[j], nearest);
+    for (const std::uint32_t i : nearest) found.push_back({i, j});
+  }
   return found;
 }
 
@@ -89,8 +119,12 @@ double mean_square_distance(std::span<const Stretch> lower, std::span<const Stre
   const auto mean = [](std::span<const Stretch> from, std::span<const Stretch> to) {
     const StretchTree tree(to, 0);
     double sum = 0;
-    for (const Stretch& stretch : from) sum += tree.nearest(stretch).cost;
-    return sum / static_cast<double>(from.size());
+    double length = 0;
+    for (const Stretch& stretch : from) {
+      sum += stretch.length * tree.nearest(stretch).cost;
+      length += stretch.length;
+    }
+    return sum / length;
   };
   return std::max(mean(lower, upper), mean(upper, lower));
 }

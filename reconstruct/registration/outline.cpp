@@ -25,30 +25,8 @@ Stretch stretch_on(const Region& region, std::uint32_t from, std::uint32_t to, d
 
 }  // namespace
 
-std::vector<Stretch> stretches(const Region& region, std::uint32_t loop, std::size_t count) {
-  std::vector<Stretch> made;
-  const auto vertices = region.loop(loop);
-  std::vector<double> ways{0};
-  for (std::size_t i = 0; i < vertices.size(); ++i) {
-    const Point p = region.points[vertices[i]];
-    const Point q = region.points[vertices[(i + 1) % vertices.size()]];
-    ways.push_back(ways.back() + std::hypot(q.x - p.x, q.y - p.y));
-  }
-  const double step = ways.back() / static_cast<double>(count);
-  std::size_t edge = 0;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double way = (static_cast<double>(k) + 0.5) * step;
-    while (edge + 1 < vertices.size() && ways[edge + 1] <= way) ++edge;
-    const std::uint32_t from = vertices[edge];
-    const std::uint32_t to = vertices[(edge + 1) % vertices.size()];
-    const double length = ways[edge + 1] - ways[edge];
-    const double share = std::clamp((way - ways[edge]) / length, 0.0, 1.0);
-    made.push_back(stretch_on(region, from, to, length, share, step));
-  }
-  return made;
-}
-
 std::vector<Stretch> stretches_by_edges(const Region& region, std::uint32_t loop, double length) {
+  constexpr double half = 0.5 + 1e-6;  // what is half a part but for rounding is none
   std::vector<Stretch> made;
   const auto vertices = region.loop(loop);
   for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -57,11 +35,23 @@ std::vector<Stretch> stretches_by_edges(const Region& region, std::uint32_t loop
     const Point p = region.points[from];
     const Point q = region.points[to];
     const double whole = std::hypot(q.x - p.x, q.y - p.y);
-    const double count = std::max(1.0, std::round(whole / length));
+    const double count = std::max(1.0, std::ceil(whole / length - half));
     for (double k = 0; k < count; ++k)
       made.push_back(stretch_on(region, from, to, whole, (k + 0.5) / count, whole / count));
   }
   return made;
+}
+
+double length(const Region& region, std::uint32_t loop) {
+  const auto vertices = region.loop(loop);
+  double sum = 0;
+  Point p = region.points[vertices.back()];
+  for (const std::uint32_t v : vertices) {
+    const Point q = region.points[v];
+    sum += std::hypot(q.x - p.x, q.y - p.y);
+    p = q;
+  }
+  return sum;
 }
 
 double perimeter(const Region& region) {

@@ -19,16 +19,13 @@ struct Stretch {
   double share = 0;  ///< of the way from `from` to `to` at which the middle is
 };
 
-/// A loop as `count` stretches of the same length, each with the direction that it has in its
-/// middle; they begin at the loop's first point. Cost: O(count + points).
-[[nodiscard]] std::vector<Stretch> stretches(const Region& region, std::uint32_t loop,
-                                             std::size_t count);
-
 /// A loop as stretches of about a length: its edges, or equal parts of them. They do not depend on
 /// where the loop begins. Cost: O(stretches).
 [[nodiscard]] std::vector<Stretch> stretches_by_edges(const Region& region, std::uint32_t loop,
                                                       double length);
 
+/// How long a loop is.
+[[nodiscard]] double length(const Region& region, std::uint32_t loop);
 /// The length of all loops.
 [[nodiscard]] double perimeter(const Region& region);
 /// What is inside the loops; negative if that is outside of them.

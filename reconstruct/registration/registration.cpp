@@ -35,10 +35,10 @@ constexpr double most_twist = 0.1;
 constexpr double direction_weight = 4;
 constexpr double pace_weight = 0.5;
 
-/// Places of a loop, one for each thickness of its length, and stretches between two of them.
+/// Stretches of a loop: some for each thickness of its length, and its edges.
 constexpr double fewest_places = 32;
 constexpr double most_places = 128;
-constexpr std::size_t stretches_of_place = 4;
+constexpr double stretches_of_place = 4;
 
 /// Matched that often, each time with the affine part of what was found before taken out.
 constexpr int rounds = 3;
@@ -145,15 +145,17 @@ class Registration {
   [[nodiscard]] double thickness() const { return thickness_; }
   [[nodiscard]] std::span<const Pull> lower_pulls() const { return lower_pulls_; }
   [[nodiscard]] std::span<const Pull> upper_pulls() const { return upper_pulls_; }
-  [[nodiscard]] Motion motion() const { return {{-back_.shift.x, -back_.shift.y}, -turn_back_}; }
+  [[nodiscard]] Motion motion() const {
+    return {{lower_half_.shift.x - upper_half_.shift.x, lower_half_.shift.y - upper_half_.shift.y},
+            (turn(lower_pulls_, 2) - turn(upper_pulls_, 2)) / 2};
+  }
 
   /// Whatever loops they have: each stretch with the nearest one, as iterated closest points do
   /// (Besl and McKay, 1992), where each loop has gone its way since the round before.
   bool match_places(const LoopWays& ways) {
     if (!(thickness_ > 0)) return false;
-    const auto count = static_cast<double>(stretches_of_place * places());
-    const AllStretches below = all_stretches(lower_, perimeter(lower_) / count);
-    const AllStretches above = all_stretches(upper_, perimeter(upper_) / count);
+    const AllStretches below = all_stretches(lower_, perimeter(lower_) / stretch_count());
+    const AllStretches above = all_stretches(upper_, perimeter(upper_) / stretch_count());
     outlines_.assign(1, {below.stretches, above.stretches});
     std::vector<Stretch> lower = moved(below, ways.lower);
     std::vector<Stretch> upper = moved(above, ways.upper);
@@ -173,7 +175,8 @@ class Registration {
     const auto pairs = pair_loops(lower_, upper_, offset);
     if (!pairs) return false;
     sample(*pairs);
-    back_ = {{}, {-offset.x, -offset.y}, {}, {}};
+    lower_half_ = {{}, {offset.x / 2, offset.y / 2}, {}, {}};
+    upper_half_ = {{}, {-offset.x / 2, -offset.y / 2}, {}, {}};
     for (int round = 0; round < rounds; ++round) {
       bool is_changed = false;
       for (Outlines& outlines : outlines_) is_changed |= match(outlines);
@@ -190,29 +193,29 @@ class Registration {
   }
 
  private:
-  [[nodiscard]] std::size_t places() const {
+  [[nodiscard]] double stretch_count() const {
     const double length = std::max(perimeter(lower_), perimeter(upper_));
-    return static_cast<std::size_t>(
-        std::clamp(length / thickness_ + 1e-6, fewest_places, most_places));
+    return stretches_of_place * std::clamp(length / thickness_, fewest_places, most_places);
   }
 
   void sample(const std::vector<LoopPair>& pairs) {
     pairs_ = pairs;
-    const std::size_t places = this->places();
-    for (const LoopPair& pair : pairs)
-      outlines_.push_back({stretches(lower_, pair.lower, stretches_of_place * places),
-                           stretches(upper_, pair.upper, stretches_of_place * places)});
+    const double count = stretch_count();
+    for (const auto& [below, above] : pairs)
+      outlines_.push_back({stretches_by_edges(lower_, below, length(lower_, below) / count),
+                           stretches_by_edges(upper_, above, length(upper_, above) / count)});
   }
 
   /// Whether that is not what it was before.
   bool match(Outlines& outlines) const {
     auto& [lower, upper, matches] = outlines;
-    std::vector<Stretch> moved = upper;
-    for (Stretch& stretch : moved) stretch = back_.moved(stretch);
-    const double distance = std::max(thickness_ * thickness_, mean_square_distance(lower, moved));
+    std::vector<Stretch> below = lower;
+    std::vector<Stretch> above = upper;
+    for (Stretch& stretch : below) stretch = lower_half_.moved(stretch);
+    for (Stretch& stretch : above) stretch = upper_half_.moved(stretch);
+    const double distance = std::max(thickness_ * thickness_, mean_square_distance(below, above));
     const std::vector<Match> before = std::exchange(
-        matches, match_outlines(lower, moved, direction_weight * distance, pace_weight * distance,
-                                lower.size() / stretches_of_place));
+        matches, match_outlines(below, above, direction_weight * distance, pace_weight * distance));
     return matches != before;
   }
 
@@ -229,10 +232,8 @@ class Registration {
       add_pulls(lower, upper, from_lower, lower_pulls_);
       add_pulls(upper, lower, from_upper, upper_pulls_);
     }
-    std::vector<Pull> back = upper_pulls_;
-    for (Pull& pull : back) pull.way = {2 * pull.way.x, 2 * pull.way.y};
-    back_ = fit_affine(back);
-    turn_back_ = fit_turn(back);
+    lower_half_ = fit_affine(lower_pulls_);
+    upper_half_ = fit_affine(upper_pulls_);
   }
 
   const Region& lower_;
@@ -242,8 +243,8 @@ class Registration {
   std::vector<Outlines> outlines_;
   std::vector<Pull> lower_pulls_;
   std::vector<Pull> upper_pulls_;
-  Affine back_;
-  double turn_back_ = 0;
+  Affine lower_half_;  // half way to the other region
+  Affine upper_half_;
 };
 
 /// What is left of two draughts' differences may differ by that share by rounding.

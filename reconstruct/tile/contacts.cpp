@@ -115,14 +115,25 @@ class Paths {
   std::vector<std::tuple<std::uint32_t, double, Point>> touched_;  // side, how far along it, where
 };
 
+/// The same for the same place, whichever path it is of.
+Point stirred(Point p, unsigned stir, double contact) {
+  constexpr double share = 0x1p-3;
+  const double turn = 1e3 * stir * ((p.x + 1.7 * p.y) / contact * 0x1p-24);
+  return {p.x + share * contact * std::cos(turn), p.y + share * contact * std::sin(turn)};
+}
+
 }  // namespace
 
 std::optional<std::array<LoopPaths, 2>> meet_exactly(const Region& lower, const Region& upper,
-                                                     Point shift, double contact) {
+                                                     Point shift, double contact, unsigned stir) {
   Loops below = loops(lower, {});
   Loops above = loops(upper, shift);
   if (!unite_vertices(below, above, contact)) return {};
-  return std::array{Paths(below, above, contact).run(), Paths(above, below, contact).run()};
+  std::array paths{Paths(below, above, contact).run(), Paths(above, below, contact).run()};
+  if (stir > 0)
+    for (LoopPaths& path : paths)
+      for (Point& p : path.points) p = stirred(p, stir, contact);
+  return paths;
 }
 
 }  // namespace loft

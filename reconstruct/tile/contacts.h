@@ -21,11 +21,12 @@ struct LoopPaths {
 
 /// The loops of two slices, the upper ones moved by `shift`, so that what is no further apart than
 /// `contact` meets exactly: vertices of the upper slice are where those of the lower are, and sides
-/// go through vertices of the other slice beside them. None if that would make vertices of one
-/// slice one. Cost: O(n log n).
+/// go through vertices of the other slice beside them. Then all vertices are moved by some share of
+/// `contact`, if `stir` is not 0, for each value in other directions: what was in one line but for
+/// rounding is so no longer. None if vertices of one slice would become one. Cost: O(n log n).
 [[nodiscard]] std::optional<std::array<LoopPaths, 2>> meet_exactly(const Region& lower,
                                                                    const Region& upper,
-                                                                   cdt::Point shift,
-                                                                   double contact);
+                                                                   cdt::Point shift, double contact,
+                                                                   unsigned stir = 0);
 
 }  // namespace loft

@@ -15,6 +15,7 @@
 #include "mesh/vec3.h"
 #include "reconstruct/plane/tile_grid.h"
 #include "reconstruct/tile/fan_change.h"
+#include "reconstruct/tile/touching.h"
 
 namespace loft {
 
@@ -75,7 +76,8 @@ class Collapse {
         upper_(upper),
         lower_count_(static_cast<std::uint32_t>(lower.points.size())),
         contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())),
-        height_(upper.z - lower.z) {}
+        height_(upper.z - lower.z),
+        contact_(contact(lower, upper)) {}
 
   /// False if the bounds of effort have decided something.
   bool run() {
@@ -366,27 +368,41 @@ class Collapse {
   }
 
   /// Whether the fan has no degenerate triangle and touches itself and the tiles, those at p left
-  /// out, in common corners and edges only.
+  /// out, in common corners and edges only: exactly, and within rounding, so that it does not
+  /// depend on how the stack is turned.
   [[nodiscard]] bool meets_nothing(std::uint32_t p) {
     for (std::size_t i = 0; i < fan_.size(); ++i) {
       const Corners corners = places(fan_[i]);
       if (collinear(corners[0], corners[1], corners[2])) return false;
       for (std::size_t j = 0; j < i; ++j)
-        if (triangles_meet(corners, places(fan_[j]))) return false;
+        if (meet(p, corners, places(fan_[j]))) return false;
     }
     for (const Nodes& nodes : fan_) {
       const Corners corners = places(nodes);
-      const bool is_free = grid_->all_of_near(footprint(nodes), [&](std::uint32_t face) {
+      cdt::Box box = footprint(nodes);
+      box = {{box.low.x - contact_, box.low.y - contact_},
+             {box.high.x + contact_, box.high.y + contact_}};
+      const bool is_free = grid_->all_of_near(box, [&](std::uint32_t face) {
         cdt::spend();
         if (tests_left_ == 0) return false;
         --tests_left_;
         const Nodes& other = tiles_[face].nodes;
         return is_dead(face) || std::ranges::find(other, p) != other.end() ||
-               !triangles_meet(corners, places(other));
+               !meet(p, corners, places(other));
       });
       if (!is_free) return false;
     }
     return true;
+  }
+
+  [[nodiscard]] bool meet(std::uint32_t p, const Corners& a, const Corners& b) {
+    return triangles_meet(a, b) || triangles_touch(stretched(p, a), stretched(p, b), contact_);
+  }
+
+  /// With heights as if the slab were about half as high as the tiles at p were wide.
+  [[nodiscard]] Corners stretched(std::uint32_t p, Corners corners) {
+    for (Vec3& place : corners) place[2] = (place[2] - lower_.z) * measured(p).stretch;
+    return corners;
   }
 
   [[nodiscard]] bool is_dead(std::uint32_t face) const { return tiles_[face].nodes[0] == none; }
@@ -424,6 +440,7 @@ class Collapse {
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
   double height_;
+  double contact_;  // what is nearer may meet by rounding
   std::vector<std::uint32_t> crossings_;
   std::vector<std::uint32_t> slot_;                // of each node in faces_, or none
   std::vector<std::vector<std::uint32_t>> faces_;  // at the nodes next to crossings

@@ -4,10 +4,9 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <set>
 #include <tuple>
 #include <utility>
-
-#include "reconstruct/tile/sheet_heights.h"
 
 namespace loft {
 
@@ -190,6 +189,7 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
   SheetHeights heights(slab_);
   const double half_way = slab_.lower().z + slab_.height() / 2;
   std::vector<Steiner> found;
+  std::set<const SheetHeights::Cell*> found_cells;
   for (std::uint32_t t = 0; t < mesh_.triangle_bound(); ++t) {
     const EdgeId first = Triangulation::edge(TriangleId(t));
     if (!slab_.is_sheet(first)) continue;
@@ -199,6 +199,15 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
       has_chord = true;
       const bool is_contour = mesh_.is_constrained(e);
       if (!is_contour && mesh_.twin(e) < e) continue;
+      if (const auto* const cell = heights.cell(e); cell != nullptr && is_level(*cell, height(e))) {
+        has_chord = true;
+        if (found_cells.insert(cell).second)
+          found.push_back({heights.is_end(e) ? -heights.depth(e, cell->centre) : cell->diameter,
+                           cell->centre,
+                           heights.height(e, cell->centre),
+                           {VertexId::none(), VertexId::none(), VertexId::none()}});
+        continue;
+      }
       const Point a = mesh_.point(mesh_.from(e));
       const Point b = mesh_.point(mesh_.to(e));
       const Point place = middle(a, b);
@@ -210,6 +219,15 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
     if (!has_chord && is_flat(first)) found.push_back(in_middle_of(first, heights));
   }
   return found;
+}
+
+/// Whether all corners of a cell have one height.
+bool Lift::is_level(const SheetHeights::Cell& cell, Height height) const {
+  return std::ranges::all_of(cell.triangles, [&](TriangleId t) {
+    const EdgeId e = Triangulation::edge(t);
+    return this->height(e) == height && this->height(Triangulation::next(e)) == height &&
+           this->height(Triangulation::prev(e)) == height;
+  });
 }
 
 /// At the centroid of the triangle left of an edge.
@@ -262,6 +280,7 @@ double Lift::z_at(EdgeId corner) const {
 /// Of a Steiner vertex's edge or triangle: the longest side.
 double Lift::extent(const Steiner& steiner) const {
   const auto [a, b, c] = steiner.corners;
+  if (a.is_none()) return 0;
   const double side = distance(mesh_.point(a), mesh_.point(b));
   if (c.is_none()) return side;
   return std::max(
@@ -270,19 +289,26 @@ double Lift::extent(const Steiner& steiner) const {
 
 /// Inserts Steiner vertices in the order of their ranks. Many are the same but for rounding, as
 /// middles of two chords over one contour edge are equally deep: then the shorter edge comes first.
-/// Places decide last, so that the result does not depend on ids. One whose edge an earlier one has
-/// flipped away is left out. Returns whether there was anything to do.
+/// One whose edge an earlier one has flipped away is left out; but of equal ones none flips away
+/// another, so that neither ids nor places decide. Returns whether there was anything to do.
 bool Lift::insert(const std::vector<Steiner>& unsorted) {
   std::vector<std::tuple<float, float, Point, const Steiner*>> sorted;
   for (const Steiner& steiner : unsorted)
     sorted.emplace_back(static_cast<float>(steiner.rank), static_cast<float>(extent(steiner)),
                         steiner.place, &steiner);
   std::ranges::sort(sorted);
+  const auto order = [&](std::size_t i) {
+    return std::pair(std::get<0>(sorted[i]), std::get<1>(sorted[i]));
+  };
   bool is_changed = false;
-  for (const auto& [rank, extent, place, steiner_of] : sorted) {
-    const Steiner& steiner = *steiner_of;
-    if (const auto v = split(steiner)) {
-      add_inner(*v, steiner.z, VertexKind::steiner);
+  for (std::size_t i = 0, behind = 0; i < sorted.size(); i = behind) {
+    std::vector<const Steiner*> equal;
+    for (; behind < sorted.size() && order(behind) == order(i); ++behind)
+      if (is_there(*std::get<3>(sorted[behind]))) equal.push_back(std::get<3>(sorted[behind]));
+    for (const Steiner* const steiner : equal) {
+      const auto v = is_there(*steiner) ? split(*steiner) : split_at(steiner->place);
+      if (!v) continue;
+      add_inner(*v, steiner->z, VertexKind::steiner);
       is_changed = true;
     }
   }
@@ -293,12 +319,28 @@ bool Lift::insert(const std::vector<Steiner>& unsorted) {
   return is_changed;
 }
 
+/// Whether no earlier one has flipped away what a Steiner vertex is to split.
+bool Lift::is_there(const Steiner& steiner) const {
+  const auto [a, b, c] = steiner.corners;
+  if (a.is_none()) return true;
+  const auto e = mesh_.find_edge(a, b);
+  return e && (c.is_none() || mesh_.apex(*e) == c);
+}
+
 std::optional<VertexId> Lift::split(const Steiner& steiner) {
-  const auto e = mesh_.find_edge(steiner.corners[0], steiner.corners[1]);
-  if (!e) return {};
-  if (steiner.corners[2].is_none()) return split(*e, steiner.place);
-  if (mesh_.apex(*e) != steiner.corners[2]) return {};
-  return slab_.split(Triangulation::triangle(*e), steiner.place);
+  const auto [a, b, c] = steiner.corners;
+  if (a.is_none()) return split_at(steiner.place);
+  const EdgeId e = *mesh_.find_edge(a, b);
+  if (c.is_none()) return split(e, steiner.place);
+  return slab_.split(Triangulation::triangle(e), steiner.place);
+}
+
+/// In the triangle, or on the edge, that is there.
+std::optional<VertexId> Lift::split_at(Point place) {
+  const cdt::Location found = mesh_.locate(place);
+  if (found.kind == cdt::Location::Kind::edge) return slab_.split(found.edge, place);
+  if (found.kind != cdt::Location::Kind::triangle) return {};
+  return slab_.split(Triangulation::triangle(found.edge), place);
 }
 
 /// At a point on the edge; where a triangle beside it is so thin that the rounded point is beyond

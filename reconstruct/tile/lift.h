@@ -8,11 +8,10 @@
 #include <vector>
 
 #include "mesh/mesh.h"
+#include "reconstruct/tile/sheet_heights.h"
 #include "reconstruct/tile/slab.h"
 
 namespace loft {
-
-class SheetHeights;
 
 /// A vertex of a slab's tiles that is not a contour vertex.
 struct InnerVertex {
@@ -52,7 +51,7 @@ class Lift {
     cdt::EdgeId last;   // contour edge on its left
   };
   /// A Steiner vertex to be: on the edge between the first two corners, or, if there is a third
-  /// one, in their triangle.
+  /// one, in their triangle; without corners at its place, whatever is there.
   struct Steiner {
     double rank;  // the lowest is inserted first
     cdt::Point place;
@@ -84,7 +83,10 @@ class Lift {
   void add_inner(cdt::VertexId v, double z, VertexKind kind);
   [[nodiscard]] bool is_chord(cdt::EdgeId e) const;
   [[nodiscard]] bool is_flat(cdt::EdgeId e) const;
+  [[nodiscard]] bool is_level(const SheetHeights::Cell& cell, Height height) const;
+  [[nodiscard]] bool is_there(const Steiner& steiner) const;
   std::optional<cdt::VertexId> split(const Steiner& steiner);
+  std::optional<cdt::VertexId> split_at(cdt::Point place);
   std::optional<cdt::VertexId> split(cdt::EdgeId e, cdt::Point place);
 
   Slab& slab_;

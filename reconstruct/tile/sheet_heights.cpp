@@ -19,8 +19,26 @@ constexpr double steepness = 0.7;    // k in the header
 constexpr double highest_end = 0.7;  // of the slab
 constexpr double lowest_end = 0.05;  // so that a cut just beside the slice still shows small parts
 
+/// The same angles, but for rounding.
+constexpr double rounding = 1e-9;
+
 /// Inner vertices keep that share of the slab's height away from the slices.
 constexpr double least_share = 1e-3;
+
+/// Whether the corners of two triangles with the side from a to b are on one circle: the angles at
+/// which that is seen from c and from d make half a turn.
+bool are_on_one_circle(Point a, Point b, Point c, Point d) {
+  const auto angle = [](Point apex, Point p, Point q) {  // its sine and cosine, scaled
+    const Point u{p.x - apex.x, p.y - apex.y};
+    const Point v{q.x - apex.x, q.y - apex.y};
+    const double scale = std::hypot(u.x, u.y) * std::hypot(v.x, v.y);
+    return Point{(u.x * v.y - u.y * v.x) / scale, (u.x * v.x + u.y * v.y) / scale};
+  };
+  const auto [sine, cosine] = angle(c, a, b);
+  const auto [other_sine, other_cosine] = angle(d, b, a);
+  const double least = std::min(std::abs(sine), std::abs(other_sine));
+  return std::abs(sine * other_cosine + cosine * other_sine) <= rounding * least;
+}
 
 }  // namespace
 
@@ -33,7 +51,9 @@ double height_share(double to_lower, double to_upper) {
 }
 
 SheetHeights::SheetHeights(const Slab& slab)
-    : slab_(slab), sheet_of_(slab.overlay().triangle_bound(), Origin::none) {}
+    : slab_(slab),
+      sheet_of_(slab.overlay().triangle_bound(), Origin::none),
+      cell_of_(sheet_of_.size(), Origin::none) {}
 
 double SheetHeights::depth(EdgeId e, Point p) { return measured(e).depth(p); }
 
@@ -106,7 +126,81 @@ void SheetHeights::explore(TriangleId start) {
     }
   }
   sheet.last = triangles_.size();
+  find_cells(sheet);
   sheets_.push_back(std::move(sheet));
+}
+
+/// Whether an edge between two triangles of a sheet could as well be another one.
+bool SheetHeights::is_diagonal(EdgeId e) const {
+  const Triangulation& mesh = slab_.overlay();
+  if (mesh.is_constrained(e)) return false;
+  return are_on_one_circle(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)),
+                           mesh.point(mesh.apex(e)), mesh.point(mesh.apex(mesh.twin(e))));
+}
+
+void SheetHeights::find_cells(const Sheet& sheet) {
+  const Triangulation& mesh = slab_.overlay();
+  for (std::size_t i = sheet.first; i < sheet.last; ++i) {
+    if (cell_of_[triangles_[i].index()] != Origin::none) continue;
+    Cell cell;
+    front_.assign(1, triangles_[i]);
+    const auto id = static_cast<std::uint32_t>(cells_.size());
+    cell_of_[triangles_[i].index()] = id;
+    while (!front_.empty()) {
+      const TriangleId t = front_.back();
+      front_.pop_back();
+      cell.triangles.push_back(t);
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        const EdgeId e = Triangulation::edge(t, corner);
+        const TriangleId beyond = Triangulation::triangle(mesh.twin(e));
+        if (!is_diagonal(e) || cell_of_[beyond.index()] != Origin::none) continue;
+        cell_of_[beyond.index()] = id;
+        front_.push_back(beyond);
+      }
+    }
+    find_centre(cell);
+    cells_.push_back(std::move(cell));
+  }
+}
+
+/// Of a rectangle the middle of its diagonal, to the last bit.
+void SheetHeights::find_centre(Cell& cell) const {
+  const Triangulation& mesh = slab_.overlay();
+  std::ranges::sort(cell.triangles, {}, [&](TriangleId t) { return centroid(t); });
+  const Point origin = centroid(cell.triangles.front());
+  double whole = 0;
+  Point sum;
+  for (const TriangleId t : cell.triangles) {
+    const EdgeId e = Triangulation::edge(t);
+    const Point a = mesh.point(mesh.from(e));
+    const Point b = mesh.point(mesh.to(e));
+    const Point c = mesh.point(mesh.apex(e));
+    const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+    const Point middle = centroid(t);
+    whole += area;
+    cell.diameter = std::hypot(b.x - a.x, b.y - a.y) * std::hypot(c.x - b.x, c.y - b.y) *
+                    std::hypot(a.x - c.x, a.y - c.y) / area;
+    sum = {sum.x + area * (middle.x - origin.x), sum.y + area * (middle.y - origin.y)};
+  }
+  cell.centre = {origin.x + sum.x / whole, origin.y + sum.y / whole};
+  if (cell.triangles.size() != 2) return;
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const EdgeId e = Triangulation::edge(cell.triangles[0], corner);
+    if (Triangulation::triangle(mesh.twin(e)) != cell.triangles[1]) continue;
+    const Point a = std::min(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)));
+    const Point b = std::max(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)));
+    const Point middle{a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
+    const double off = std::hypot(middle.x - cell.centre.x, middle.y - cell.centre.y);
+    if (off <= rounding * std::hypot(b.x - a.x, b.y - a.y)) cell.centre = middle;
+  }
+}
+
+const SheetHeights::Cell* SheetHeights::cell(EdgeId e) {
+  sheet_at(e);
+  const std::uint32_t cell = cell_of_[Triangulation::triangle(e).index()];
+  if (cells_[cell].triangles.size() < 2) return nullptr;
+  const std::uint32_t beyond = cell_of_[Triangulation::triangle(slab_.overlay().twin(e)).index()];
+  return cell == beyond && !slab_.overlay().is_constrained(e) ? &cells_[cell] : nullptr;
 }
 
 void SheetHeights::measure(Sheet& sheet) const {
@@ -115,7 +209,9 @@ void SheetHeights::measure(Sheet& sheet) const {
   std::vector<Point> middles;
   for (std::size_t i = sheet.first; i < sheet.last; ++i) {
     const TriangleId t = triangles_[i];
-    middles.push_back(centroid(t));
+    const std::uint32_t cell = cell_of_[t.index()];
+    const bool is_alone = cells_[cell].triangles.size() == 1;
+    middles.push_back(is_alone ? centroid(t) : cells_[cell].centre);
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(t, corner);
       const Point a = mesh.point(mesh.from(e));
@@ -125,6 +221,7 @@ void SheetHeights::measure(Sheet& sheet) const {
           if (slab_.is_contour(e, level)) bounds[static_cast<int>(level)].push_back({a, b});
         continue;
       }
+      if (cell_of_[Triangulation::triangle(mesh.twin(e)).index()] == cell) continue;
       middles.push_back({a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2});
     }
   }

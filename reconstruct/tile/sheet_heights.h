@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "reconstruct/plane/nearest.h"
@@ -37,6 +38,15 @@ class SheetHeights {
   /// higher than 0.71 of the gap.
   [[nodiscard]] double height(cdt::EdgeId e, cdt::Point p);
 
+  /// Triangles with corners on one circle: but for rounding, any other diagonals are as good.
+  struct Cell {
+    std::vector<cdt::TriangleId> triangles;
+    cdt::Point centre;    ///< centroid of their area
+    double diameter = 0;  ///< of the circle
+  };
+  /// The cell that an edge of a sheet is a diagonal of; null if it is none.
+  [[nodiscard]] const Cell* cell(cdt::EdgeId e);
+
  private:
   struct Sheet {
     std::size_t first = 0;  // its triangles, in triangles_
@@ -46,7 +56,7 @@ class SheetHeights {
     bool is_measured = false;  // what follows is known
     NearestSegment lower;
     NearestSegment upper;
-    double radius = 0;  // of an end: the largest depth of the middle of an edge or triangle
+    double radius = 0;  // of an end: the largest depth of the middle of an edge or cell
 
     [[nodiscard]] bool is_end() const { return !touches_lower || !touches_upper; }
     [[nodiscard]] double depth(cdt::Point p) const {
@@ -58,6 +68,9 @@ class SheetHeights {
   const Sheet& measured(cdt::EdgeId e);
   void explore(cdt::TriangleId start);
   void measure(Sheet& sheet) const;
+  void find_cells(const Sheet& sheet);
+  void find_centre(Cell& cell) const;
+  [[nodiscard]] bool is_diagonal(cdt::EdgeId e) const;
   [[nodiscard]] cdt::Point centroid(cdt::TriangleId t) const;
   [[nodiscard]] double end_share(const Sheet& sheet, cdt::Point p) const;
 
@@ -66,6 +79,8 @@ class SheetHeights {
   std::vector<cdt::TriangleId> triangles_;  // sheet by sheet
   std::vector<cdt::TriangleId> front_;
   std::vector<std::uint32_t> sheet_of_;  // of each triangle; Origin::none where not yet explored
+  std::deque<Cell> cells_;               // which stay where they are
+  std::vector<std::uint32_t> cell_of_;   // of each triangle
 };
 
 }  // namespace loft

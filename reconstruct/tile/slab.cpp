@@ -90,8 +90,8 @@ Slab::Slab(const Region& lower, const Region& upper, cdt::Point shift,
 }
 
 std::optional<Slab> Slab::merged(const Region& lower, const Region& upper, cdt::Point shift,
-                                 double contact) {
-  auto paths = meet_exactly(lower, upper, shift, contact);
+                                 double contact, unsigned stir) {
+  auto paths = meet_exactly(lower, upper, shift, contact, stir);
   if (!paths) return {};
   return Slab(lower, upper, shift, std::move(*paths));
 }

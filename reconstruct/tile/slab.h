@@ -41,7 +41,8 @@ class Slab {
   /// they met exactly; the tiles have to be tested. None if that would make vertices of one slice
   /// one. See meet_exactly().
   [[nodiscard]] static std::optional<Slab> merged(const Region& lower, const Region& upper,
-                                                  cdt::Point shift, double contact);
+                                                  cdt::Point shift, double contact,
+                                                  unsigned stir = 0);
 
   [[nodiscard]] const Region& lower() const { return lower_; }
   [[nodiscard]] const Region& upper() const { return upper_; }

@@ -267,6 +267,10 @@ bool fit_together(const Region& lower, const Region& upper, const TileSet& tiles
 /// That often a slab is sheared anew before its slices are left apart.
 constexpr int most_shears = 12;
 
+/// Slices that come within rounding of each other are merged that often, where slivers by rounding
+/// are in the way: stirred a little, these are wide enough to be split.
+constexpr unsigned most_stirs = 4;
+
 /// What is asked of an overlay.
 enum class Overlay { exact, rounded };
 
@@ -300,8 +304,9 @@ struct Attempt {
 /// The tiles of a slab whose slices come within rounding of each other: as if they met exactly
 /// there, so that it does not matter which way they were rounded. None if these are not valid.
 std::optional<TileSet> tile_merged(const Region& lower, const Region& upper, const Attempt& how,
-                                   std::size_t& pairs_left, TileWorkspace& workspace) {
-  auto slab = Slab::merged(lower, upper, how.shear, how.contact);
+                                   unsigned stir, std::size_t& pairs_left,
+                                   TileWorkspace& workspace) {
+  auto slab = Slab::merged(lower, upper, how.shear, how.contact, stir);
   if (!slab) return {};
   auto drafted = draft(*slab, 0, Overlay::rounded, workspace);
   if (!drafted || !fit_together(lower, upper, drafted->tiles)) return {};
@@ -315,8 +320,8 @@ std::optional<TileSet> tile_sheared(const Region& lower, const Region& upper, co
                                     std::size_t& pairs_left, TileWorkspace& workspace) {
   Slab slab(lower, upper, how.shear, std::move(workspace.overlay));
   const bool is_near = how.contact > 0 && slab.has_near_contact(how.contact);
-  if (is_near) {
-    if (auto tiles = tile_merged(lower, upper, how, pairs_left, workspace)) {
+  for (unsigned stir = 0; is_near && stir < most_stirs; ++stir) {
+    if (auto tiles = tile_merged(lower, upper, how, stir, pairs_left, workspace)) {
       workspace.overlay = slab.release();
       return tiles;
     }

@@ -129,6 +129,61 @@ TEST(Turned, CornersOnASideKeepTheHeightsOfTheirChords) {
   }
 }
 
+TEST(Turned, AnEdgeWithinAWallTouchesItWhicheverWayItWasRounded) {
+  // Three corners of the upper outline lie on a side of the lower one, but for rounding. A crossing
+  // was pulled into one of them, so that an edge ran within the wall there.
+  const std::vector<Slice> slices{{0, {{{{2.1, -2.1}, {6.9, -1.5}, {2.3, 2.7}}, {}}}},
+                                  {1, {{{{2.9, -2}, {5.3, -1.7}, {6.1, -1.6}, {5.1, 0.7}}, {}}}}};
+  for (const double angle : angles(50)) expect_same(slices, angle);
+}
+
+TEST(Turned, ANotchInASideThatIsCommonKeepsItsSheet) {
+  // Along the side there are slivers by rounding, beside which it could not be split.
+  const Contour whole{{{0, 0}, {27.618, 0}, {27.618, 15.333}, {0, 15.333}}, {}};
+  const Contour notched{{{1, 1},
+                         {27.618, 5.2678},
+                         {27.618, 10.179719},
+                         {21.7754, 10.1572},
+                         {23.148, 10.464678},
+                         {24.258, 10.649571},
+                         {25.374, 10.779361},
+                         {26.496, 10.859806},
+                         {27.618, 10.883923},
+                         {27.618, 15.333},
+                         {1, 15}},
+                        {}};
+  const std::vector<Slice> slices{{7, {whole}}, {9, {notched}}};
+  for (const double angle : angles(50)) expect_same(slices, angle);
+}
+
+TEST(Turned, EndsOfRegularOutlinesAreTheSameDomes) {
+  // All their points are on one circle: which diagonals are Delaunay's is left to rounding.
+  for (const std::size_t n : {5U, 6U, 7U, 8U, 12U, 24U, 64U}) {
+    SCOPED_TRACE(n);
+    const std::vector<Slice> slices{{0, {stacks::circle(n, 1)}},
+                                    {1, {stacks::circle(n, 1, {5, 0})}}};
+    for (const double angle : angles(7)) expect_same(slices, angle);
+  }
+}
+
+TEST(Turned, PartsThatMoveByJustWhatIsAllowedAreLinked) {
+  const std::vector<Slice> slices{{0, {stacks::circle(12, 1)}},
+                                  {1, {stacks::circle(12, 1, {3, 4})}}};
+  Options options;
+  options.max_shift = 5;
+  EXPECT_EQ(shape(slices, options).components, 1U);
+  for (const double angle : angles(50)) expect_same(slices, angle, options);
+}
+
+TEST(Turned, PartsThatOverlapJustEnoughAreLinkedAlike) {
+  // Both cover 0.6, and 0.15, of what they cover together.
+  for (const double aside : {2.5, 170 / 23.0}) {
+    const std::vector<Slice> slices{{0, {box({3, 5}, {13, 15})}},
+                                    {4, {box({3 + aside, 5}, {13 + aside, 15})}}};
+    for (const double angle : angles(50)) expect_same(slices, angle);
+  }
+}
+
 // --- Random stacks ---
 
 using Random = std::mt19937_64;
@@ -203,22 +258,31 @@ std::vector<Slice> neighbours(Random& random) {
   return slices;
 }
 
+void expect_same_of_seed(std::uint64_t seed) {
+  Random random(seed);
+  const auto kind = seed % 3;
+  const std::vector<Slice> slices = kind == 0   ? cells(random)
+                                    : kind == 1 ? blobs(random)
+                                                : neighbours(random);
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  try {
+    expect_same(slices, uniform(random, 0, 2 * pi));
+  } catch (const InputError&) {
+    // Fewer than two slices with an area.
+  }
+}
+
 TEST(Turned, AnyStackKeepsItsLinksItsGenusAndItsVolume) {
   const char* count = std::getenv("LOFT_TURNED_COUNT");
   const std::uint64_t seeds = count == nullptr ? 60 : std::strtoull(count, nullptr, 10);
-  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-    Random random(seed);
-    const auto kind = seed % 3;
-    const std::vector<Slice> slices = kind == 0   ? cells(random)
-                                      : kind == 1 ? blobs(random)
-                                                  : neighbours(random);
-    SCOPED_TRACE("seed " + std::to_string(seed));
-    try {
-      expect_same(slices, uniform(random, 0, 2 * pi));
-    } catch (const InputError&) {
-      // Fewer than two slices with an area.
-    }
-  }
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) expect_same_of_seed(seed);
+}
+
+TEST(Turned, PlacesThatAreAsNearToSeveralOthersGoToTheMiddleOfThem) {
+  // Cells that are drawn over others: which of two sides is nearer was left to rounding, and with
+  // it the volume, by up to a fifth.
+  for (const std::uint64_t seed : {78U, 342U, 417U, 423U, 555U, 909U, 948U})
+    expect_same_of_seed(seed);
 }
 
 }  // namespace

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/registration/courses.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "cdt/effort.h"
+
+namespace loft {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// About as many pairs take as long as a test of two triangles.
+constexpr std::size_t pairs_of_step = 16;
+
+/// Courses are left in that part of the rows; later, it is better to know them.
+constexpr std::size_t early = 8;
+
+/// From middle to middle, as shares of the whole.
+std::vector<double> steps(std::span<const Stretch> loop) {
+  double whole = 0;
+  for (const Stretch& stretch : loop) whole += stretch.length;
+  std::vector<double> made;
+  double before = loop.back().length;
+  for (const Stretch& stretch : loop) {
+    made.push_back((before + stretch.length) / (2 * whole));
+    before = stretch.length;
+  }
+  return made;
+}
+
+double cost_of(const Stretch& a, const Stretch& b, double direction_weight) {
+  const double x = b.middle.x - a.middle.x;
+  const double y = b.middle.y - a.middle.y;
+  const double cosine = a.normal.x * b.normal.x + a.normal.y * b.normal.y;
+  return x * x + y * y + direction_weight * (1 - cosine);
+}
+
+}  // namespace
+
+PairGrid::PairGrid(std::span<const Stretch> lower, std::span<const Stretch> upper,
+                   double direction_weight, double pace_weight)
+    : lower_(lower),
+      upper_(upper),
+      direction_weight_(direction_weight),
+      pace_weight_(pace_weight),
+      columns_(upper.size()),
+      row_steps_(steps(lower)),
+      column_steps_(steps(upper)) {
+  constexpr std::size_t most_in_table = std::size_t{1} << 19U;
+  const auto go_round_again = [&](std::vector<double>& values) {
+    for (std::size_t j = 0; j < columns_; ++j) values.push_back(values[values.size() - columns_]);
+  };
+  go_round_again(column_steps_);
+  column_steps_.push_back(column_steps_[0]);
+  if (rows() > most_in_table / columns_) return;
+  table_.reserve(2 * rows() * columns_);
+  for (const Stretch& a : lower) {
+    for (const Stretch& b : upper) table_.push_back(cost_of(a, b, direction_weight));
+    go_round_again(table_);
+  }
+}
+
+double PairGrid::cost(std::size_t row, std::size_t column) const {
+  row %= rows();
+  column %= columns_;
+  return table_.empty() ? cost_of(lower_[row], upper_[column], direction_weight_)
+                        : table_[2 * row * columns_ + column];
+}
+
+const double* PairGrid::costs(std::size_t row, Range range, std::vector<double>& memory) const {
+  row %= rows();
+  std::size_t column = range.first % columns_;
+  const std::size_t count = range.last - range.first;
+  if (!table_.empty() && column + count <= 2 * columns_)
+    return table_.data() + 2 * row * columns_ + column;
+  memory.resize(count);
+  for (double& cost : memory) {
+    cost = this->cost(row, column);
+    if (++column == columns_) column = 0;
+  }
+  return memory.data();
+}
+
+CostToCome::CostToCome(const PairGrid& grid) {
+  const std::size_t rows = grid.rows();
+  const std::size_t columns = grid.columns();
+  std::vector<double> least_of_rows(rows, infinity);
+  std::vector<double> least_of_columns(columns, infinity);
+  std::vector<double> memory;
+  for (std::size_t i = 0; i < rows; ++i) {
+    const double* const costs = grid.costs(i, {0, columns}, memory);
+    for (std::size_t j = 0; j < columns; ++j) {
+      least_of_rows[i] = std::min(least_of_rows[i], costs[j]);
+      least_of_columns[j] = std::min(least_of_columns[j], costs[j]);
+    }
+  }
+  const auto step = [](const std::vector<double>& least, std::size_t i, double way) {
+    const std::size_t count = least.size();
+    return (least[i % count] + least[(i + 1) % count]) / 2 * way;
+  };
+  of_rows_.resize(rows + 1);
+  for (std::size_t i = rows; i-- > 0;)
+    of_rows_[i] = of_rows_[i + 1] + step(least_of_rows, i, grid.row_step(i + 1));
+  of_columns_.resize(2 * columns + 1);
+  for (std::size_t j = 2 * columns; j-- > 0;)
+    of_columns_[j] = of_columns_[j + 1] + step(least_of_columns, j, *grid.column_steps(j + 1));
+}
+
+Courses::Courses(const PairGrid& grid, std::size_t first_row, std::vector<Range> ranges)
+    : grid_(grid), first_row_(first_row), ranges_(std::move(ranges)), starts_{0} {
+  fill_forward(nullptr, infinity);
+}
+
+Courses::Courses(const PairGrid& grid, std::vector<Range> ranges, const CostToCome& to_come,
+                 double most)
+    : grid_(grid), first_row_(0), ranges_(std::move(ranges)), starts_{0} {
+  fill_forward(&to_come, most);
+}
+
+void Courses::fill_forward(const CostToCome* to_come, double most) {
+  std::size_t count = 0;
+  for (const Range range : ranges_) count += range.last - range.first;
+  forward_.reserve(count);
+  std::vector<double> memory;
+  std::vector<double> memory_before;
+  const double* costs_before = nullptr;
+  for (std::size_t i = 0; i < ranges_.size(); ++i) {
+    const Range range = ranges_[i];
+    cdt::spend(1 + (range.last - range.first) / pairs_of_step);
+    starts_.push_back(starts_.back() + range.last - range.first);
+    forward_.resize(starts_.back(), infinity);
+    const double* const costs = grid_.costs(first_row_ + i, range, memory);
+    fill_row(i, costs, costs_before);
+    const bool is_early = i < ranges_.size() / early;
+    is_found_ = to_come == nullptr || !is_early || least_through(i, *to_come) < most;
+    if (!is_found_) return;
+    costs_before = costs;
+    std::swap(memory, memory_before);
+  }
+}
+
+/// From the row before, then along the row.
+void Courses::fill_row(std::size_t i, const double* costs, const double* costs_before) {
+  const auto [first, last] = ranges_[i];
+  double* const row = forward_.data() + starts_[i];
+  const double* const column_steps = grid_.column_steps(first);
+  if (i == 0) {
+    row[0] = 0;
+  } else {
+    const Range before = ranges_[i - 1];
+    const double* const above = forward_.data() + starts_[i - 1];
+    const double row_step = grid_.row_step(first_row_ + i);
+    for (std::size_t j = std::max(first, before.first); j < std::min(last, before.last); ++j)
+      row[j - first] = above[j - before.first] +
+                       grid_.step_one(costs[j - first], costs_before[j - before.first], row_step);
+    for (std::size_t j = std::max(first, before.first + 1); j < std::min(last, before.last + 1);
+         ++j) {
+      const std::size_t k = j - 1 - before.first;
+      const double both = above[k] + grid_.step_both(costs[j - first], costs_before[k], row_step,
+                                                     column_steps[j - first]);
+      row[j - first] = std::min(row[j - first], both);
+    }
+  }
+  for (std::size_t k = 1; k < last - first; ++k)
+    row[k] = std::min(row[k], row[k - 1] + grid_.step_one(costs[k], costs[k - 1], column_steps[k]));
+}
+
+/// What a course through a row costs at least.
+double Courses::least_through(std::size_t i, const CostToCome& to_come) const {
+  const std::size_t end = ranges_.back().last - 1;
+  double least = infinity;
+  for (std::size_t j = ranges_[i].first; j < ranges_[i].last; ++j)
+    least =
+        std::min(least, forward_[starts_[i] + j - ranges_[i].first] + to_come.of_columns(j, end));
+  return least + to_come.of_rows(i);
+}
+
+std::vector<double> Courses::fill_backward() const {
+  std::vector<double> backward(starts_.back(), infinity);
+  backward.back() = 0;
+  std::vector<double> memory;
+  std::vector<double> memory_after;
+  const double* costs_after = nullptr;
+  for (std::size_t i = ranges_.size(); i-- > 0;) {
+    const auto [first, last] = ranges_[i];
+    cdt::spend(1 + (last - first) / pairs_of_step);
+    const double* const costs = grid_.costs(first_row_ + i, ranges_[i], memory);
+    const double* const column_steps = grid_.column_steps(first);
+    double* const row = backward.data() + starts_[i];
+    if (i + 1 < ranges_.size()) {
+      const Range after = ranges_[i + 1];
+      const double* const below = backward.data() + starts_[i + 1];
+      const double row_step = grid_.row_step(first_row_ + i + 1);
+      for (std::size_t j = std::max(first, after.first); j < std::min(last, after.last); ++j)
+        row[j - first] = below[j - after.first] +
+                         grid_.step_one(costs[j - first], costs_after[j - after.first], row_step);
+      for (std::size_t j = std::max(first + 1, after.first); j < std::min(last + 1, after.last);
+           ++j) {
+        const std::size_t k = j - after.first;
+        const double both = below[k] + grid_.step_both(costs[j - 1 - first], costs_after[k],
+                                                       row_step, column_steps[j - first]);
+        row[j - 1 - first] = std::min(row[j - 1 - first], both);
+      }
+    }
+    for (std::size_t k = last - first - 1; k-- > 0;)
+      row[k] = std::min(row[k],
+                        row[k + 1] + grid_.step_one(costs[k], costs[k + 1], column_steps[k + 1]));
+    costs_after = costs;
+    std::swap(memory, memory_after);
+  }
+  return backward;
+}
+
+double Courses::at(std::size_t i, std::size_t column) const {
+  const Range range = ranges_[i];
+  if (column < range.first || column >= range.last) return infinity;
+  return forward_[starts_[i] + column - range.first];
+}
+
+std::vector<Range> Courses::course() const {
+  std::vector<Range> course(ranges_.size());
+  std::size_t i = ranges_.size() - 1;
+  std::size_t j = ranges_.back().last - 1;
+  course[i] = {j, j + 1};
+  while (i > 0 || j > ranges_[0].first) {
+    const double here = grid_.cost(first_row_ + i, j);
+    const double row_step = grid_.row_step(first_row_ + i);
+    const double column_step = *grid_.column_steps(j);
+    double both = infinity;
+    double lower = infinity;
+    double upper = infinity;
+    if (i > 0 && j > 0)
+      both = at(i - 1, j - 1) +
+             grid_.step_both(here, grid_.cost(first_row_ + i - 1, j - 1), row_step, column_step);
+    if (i > 0)
+      lower = at(i - 1, j) + grid_.step_one(here, grid_.cost(first_row_ + i - 1, j), row_step);
+    if (j > ranges_[i].first)
+      upper = at(i, j - 1) + grid_.step_one(here, grid_.cost(first_row_ + i, j - 1), column_step);
+    const bool is_up = std::min(both, lower) <= upper;
+    if (!is_up || both <= lower) --j;
+    if (is_up) --i;
+    if (is_up) course[i] = {j, j + 1};
+    course[i].first = j;
+  }
+  return course;
+}
+
+}  // namespace loft
