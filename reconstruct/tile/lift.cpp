@@ -8,6 +8,8 @@
 #include <tuple>
 #include <utility>
 
+#include "reconstruct/tile/sheet_heights.h"
+
 namespace loft {
 
 namespace {
@@ -189,7 +191,7 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
   SheetHeights heights(slab_);
   const double half_way = slab_.lower().z + slab_.height() / 2;
   std::vector<Steiner> found;
-  std::set<const SheetHeights::Cell*> found_cells;
+  std::set<const CircleCell*> found_cells;
   for (std::uint32_t t = 0; t < mesh_.triangle_bound(); ++t) {
     const EdgeId first = Triangulation::edge(TriangleId(t));
     if (!slab_.is_sheet(first)) continue;
@@ -222,7 +224,7 @@ std::vector<Lift::Steiner> Lift::find_chords() const {
 }
 
 /// Whether all corners of a cell have one height.
-bool Lift::is_level(const SheetHeights::Cell& cell, Height height) const {
+bool Lift::is_level(const CircleCell& cell, Height height) const {
   return std::ranges::all_of(cell.triangles, [&](TriangleId t) {
     const EdgeId e = Triangulation::edge(t);
     return this->height(e) == height && this->height(Triangulation::next(e)) == height &&

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "mesh/mesh.h"
-#include "reconstruct/tile/sheet_heights.h"
 #include "reconstruct/tile/slab.h"
 
 namespace loft {
+
+class SheetHeights;
+struct CircleCell;
 
 /// A vertex of a slab's tiles that is not a contour vertex.
 struct InnerVertex {
@@ -83,7 +85,7 @@ class Lift {
   void add_inner(cdt::VertexId v, double z, VertexKind kind);
   [[nodiscard]] bool is_chord(cdt::EdgeId e) const;
   [[nodiscard]] bool is_flat(cdt::EdgeId e) const;
-  [[nodiscard]] bool is_level(const SheetHeights::Cell& cell, Height height) const;
+  [[nodiscard]] bool is_level(const CircleCell& cell, Height height) const;
   [[nodiscard]] bool is_there(const Steiner& steiner) const;
   std::optional<cdt::VertexId> split(const Steiner& steiner);
   std::optional<cdt::VertexId> split_at(cdt::Point place);

@@ -31,7 +31,7 @@ bool are_on_one_circle(Point a, Point b, Point c, Point d) {
   const auto angle = [](Point apex, Point p, Point q) {  // its sine and cosine, scaled
     const Point u{p.x - apex.x, p.y - apex.y};
     const Point v{q.x - apex.x, q.y - apex.y};
-    const double scale = std::hypot(u.x, u.y) * std::hypot(v.x, v.y);
+    const double scale = std::sqrt((u.x * u.x + u.y * u.y) * (v.x * v.x + v.y * v.y));
     return Point{(u.x * v.y - u.y * v.x) / scale, (u.x * v.x + u.y * v.y) / scale};
   };
   const auto [sine, cosine] = angle(c, a, b);
@@ -142,29 +142,26 @@ void SheetHeights::find_cells(const Sheet& sheet) {
   const Triangulation& mesh = slab_.overlay();
   for (std::size_t i = sheet.first; i < sheet.last; ++i) {
     if (cell_of_[triangles_[i].index()] != Origin::none) continue;
-    Cell cell;
-    front_.assign(1, triangles_[i]);
     const auto id = static_cast<std::uint32_t>(cells_.size());
-    cell_of_[triangles_[i].index()] = id;
-    while (!front_.empty()) {
-      const TriangleId t = front_.back();
-      front_.pop_back();
-      cell.triangles.push_back(t);
+    front_.assign(1, triangles_[i]);
+    for (std::size_t next = 0; next < front_.size(); ++next) {
       for (unsigned corner = 0; corner < 3; ++corner) {
-        const EdgeId e = Triangulation::edge(t, corner);
+        const EdgeId e = Triangulation::edge(front_[next], corner);
         const TriangleId beyond = Triangulation::triangle(mesh.twin(e));
         if (!is_diagonal(e) || cell_of_[beyond.index()] != Origin::none) continue;
-        cell_of_[beyond.index()] = id;
+        cell_of_[beyond.index()] = cell_of_[front_[next].index()] = id;
         front_.push_back(beyond);
       }
     }
+    if (front_.size() == 1) continue;
+    CircleCell cell{front_, {}};
     find_centre(cell);
     cells_.push_back(std::move(cell));
   }
 }
 
 /// Of a rectangle the middle of its diagonal, to the last bit.
-void SheetHeights::find_centre(Cell& cell) const {
+void SheetHeights::find_centre(CircleCell& cell) const {
   const Triangulation& mesh = slab_.overlay();
   std::ranges::sort(cell.triangles, {}, [&](TriangleId t) { return centroid(t); });
   const Point origin = centroid(cell.triangles.front());
@@ -195,10 +192,10 @@ void SheetHeights::find_centre(Cell& cell) const {
   }
 }
 
-const SheetHeights::Cell* SheetHeights::cell(EdgeId e) {
+const CircleCell* SheetHeights::cell(EdgeId e) {
   sheet_at(e);
   const std::uint32_t cell = cell_of_[Triangulation::triangle(e).index()];
-  if (cells_[cell].triangles.size() < 2) return nullptr;
+  if (cell == Origin::none) return nullptr;
   const std::uint32_t beyond = cell_of_[Triangulation::triangle(slab_.overlay().twin(e)).index()];
   return cell == beyond && !slab_.overlay().is_constrained(e) ? &cells_[cell] : nullptr;
 }
@@ -210,8 +207,7 @@ void SheetHeights::measure(Sheet& sheet) const {
   for (std::size_t i = sheet.first; i < sheet.last; ++i) {
     const TriangleId t = triangles_[i];
     const std::uint32_t cell = cell_of_[t.index()];
-    const bool is_alone = cells_[cell].triangles.size() == 1;
-    middles.push_back(is_alone ? centroid(t) : cells_[cell].centre);
+    middles.push_back(cell == Origin::none ? centroid(t) : cells_[cell].centre);
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(t, corner);
       const Point a = mesh.point(mesh.from(e));
@@ -221,7 +217,8 @@ void SheetHeights::measure(Sheet& sheet) const {
           if (slab_.is_contour(e, level)) bounds[static_cast<int>(level)].push_back({a, b});
         continue;
       }
-      if (cell_of_[Triangulation::triangle(mesh.twin(e)).index()] == cell) continue;
+      const std::uint32_t beyond = cell_of_[Triangulation::triangle(mesh.twin(e)).index()];
+      if (cell != Origin::none && beyond == cell) continue;
       middles.push_back({a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2});
     }
   }

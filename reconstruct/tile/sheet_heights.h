@@ -15,6 +15,14 @@ namespace loft {
 /// contours of the lower and of the upper slice, strictly between 0 and 1; see SheetHeights.
 [[nodiscard]] double height_share(double to_lower, double to_upper);
 
+/// Triangles of a sheet with corners on one circle: but for rounding, any other diagonals are as
+/// good.
+struct CircleCell {
+  std::vector<cdt::TriangleId> triangles;
+  cdt::Point centre;    ///< centroid of their area
+  double diameter = 0;  ///< of the circle
+};
+
 /// Where the surface is over the inside of a slab's sheets, by the distances to the contours that
 /// bound them. Looks at the slab's triangles as they are when asked
 /// first; make a new one after splits. Distances are prepared only for the sheets asked about.
@@ -38,14 +46,8 @@ class SheetHeights {
   /// higher than 0.71 of the gap.
   [[nodiscard]] double height(cdt::EdgeId e, cdt::Point p);
 
-  /// Triangles with corners on one circle: but for rounding, any other diagonals are as good.
-  struct Cell {
-    std::vector<cdt::TriangleId> triangles;
-    cdt::Point centre;    ///< centroid of their area
-    double diameter = 0;  ///< of the circle
-  };
   /// The cell that an edge of a sheet is a diagonal of; null if it is none.
-  [[nodiscard]] const Cell* cell(cdt::EdgeId e);
+  [[nodiscard]] const CircleCell* cell(cdt::EdgeId e);
 
  private:
   struct Sheet {
@@ -69,7 +71,7 @@ class SheetHeights {
   void explore(cdt::TriangleId start);
   void measure(Sheet& sheet) const;
   void find_cells(const Sheet& sheet);
-  void find_centre(Cell& cell) const;
+  void find_centre(CircleCell& cell) const;
   [[nodiscard]] bool is_diagonal(cdt::EdgeId e) const;
   [[nodiscard]] cdt::Point centroid(cdt::TriangleId t) const;
   [[nodiscard]] double end_share(const Sheet& sheet, cdt::Point p) const;
@@ -79,7 +81,7 @@ class SheetHeights {
   std::vector<cdt::TriangleId> triangles_;  // sheet by sheet
   std::vector<cdt::TriangleId> front_;
   std::vector<std::uint32_t> sheet_of_;  // of each triangle; Origin::none where not yet explored
-  std::deque<Cell> cells_;               // which stay where they are
+  std::deque<CircleCell> cells_;         // which stay where they are
   std::vector<std::uint32_t> cell_of_;   // of each triangle
 };
 
