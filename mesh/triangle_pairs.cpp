@@ -145,14 +145,9 @@ class TrianglePairs::Builder {
     const std::uint32_t hub = fan.hub;
     const std::uint32_t node = build(units);
     const std::uint32_t first = pairs_.nodes_[node].first;
-    std::vector<Box3> arcs;
-    for (std::uint32_t i = first; i < item_count(); ++i) {
-      const std::uint32_t t = pairs_.items_[i].index;
-      const auto corner = std::ranges::find(vertices_[t], hub) - vertices_[t].begin();
-      arcs.push_back(arc_of(triangles_[t], static_cast<std::size_t>(corner)));
-    }
     pairs_.nodes_[node].fan = static_cast<std::uint32_t>(pairs_.fans_.size());
-    pairs_.fans_.push_back({BoxTree(arcs), first});
+    const auto items = std::span<const Item>(pairs_.items_).subspan(first);
+    pairs_.fans_.push_back({arcs_of(items, hub, triangles_, vertices_), first, hub});
     return node;
   }
 
@@ -223,6 +218,59 @@ class TrianglePairs::Builder {
 TrianglePairs::TrianglePairs(std::span<const Corners> triangles, std::span<const Vertices> vertices,
                              std::size_t vertex_count, double reach) {
   Builder(*this, triangles, vertices, vertex_count, reach);
+}
+
+BoxTree TrianglePairs::arcs_of(std::span<const Item> items, std::uint32_t hub,
+                               std::span<const Corners> triangles,
+                               std::span<const Vertices> vertices) {
+  std::vector<Box3> arcs;
+  for (const Item& item : items) {
+    const Vertices& own = vertices[item.index];
+    const auto corner = std::ranges::find(own, hub) - own.begin();
+    arcs.push_back(arc_of(triangles[item.index], static_cast<std::size_t>(corner)));
+  }
+  return BoxTree(arcs);
+}
+
+void TrianglePairs::update(std::span<const std::uint32_t> changed,
+                           std::span<const Corners> triangles, std::span<const Vertices> vertices) {
+  ++round_;
+  if (places_.empty()) {
+    places_.resize(items_.size());
+    for (std::uint32_t i = 0; i < items_.size(); ++i) places_[items_[i].index] = i;
+  }
+  std::vector<std::uint32_t> places;
+  for (const std::uint32_t t : changed) places.push_back(places_[t]);
+  std::ranges::sort(places);
+  if (!nodes_.empty()) refresh(0, places, triangles, vertices);
+}
+
+void TrianglePairs::refresh(std::uint32_t node, std::span<const std::uint32_t> places,
+                            std::span<const Corners> triangles,
+                            std::span<const Vertices> vertices) {
+  if (places.empty()) return;
+  Node& n = nodes_[node];
+  n.round = round_;
+  if (n.turned != none)
+    for (const std::uint32_t place : places)
+      for (const Vec3& p : triangles[items_[place].index]) turned_[n.turned].add(p);
+  if (n.second == 0) {
+    for (const std::uint32_t place : places) {
+      const auto& [a, b, c] = triangles[items_[place].index];
+      items_[place].box = box_around(a, b, c);
+      items_[place].round = round_;
+      n.box = joined(n.box, items_[place].box);
+    }
+    return;
+  }
+  const auto half = std::ranges::lower_bound(places, nodes_[n.second].first) - places.begin();
+  refresh(node + 1, places.first(static_cast<std::size_t>(half)), triangles, vertices);
+  refresh(n.second, places.subspan(static_cast<std::size_t>(half)), triangles, vertices);
+  n.box = joined(nodes_[node + 1].box, nodes_[n.second].box);
+  if (n.fan == none) return;
+  Fan& fan = fans_[n.fan];
+  const auto items = std::span<const Item>(items_).subspan(n.first, n.last - n.first);
+  fan.arcs = arcs_of(items, fan.hub, triangles, vertices);
 }
 
 bool TrianglePairs::are_apart(const Node& a, const Node& b) const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -35,7 +36,7 @@ class TrianglePairs {
   /// out.
   template <class Test>
   bool all_of(Test test) const {
-    return nodes_.empty() || within(0, test);
+    return nodes_.empty() || within(0, 0, test);
   }
 
   template <class Visit>
@@ -44,6 +45,22 @@ class TrianglePairs {
       visit(i, j);
       return true;
     });
+  }
+
+  /// Triangles of some numbers have changed: `triangles` are all of them, as
+  /// they are now, `vertices` as they were. They stay in their branches, which grow; arcs are made
+  /// anew in the fans of those that changed. Precondition: the reach is 0.
+  void update(std::span<const std::uint32_t> changed, std::span<const Corners> triangles,
+              std::span<const Vertices> vertices);
+
+  /// As for_each(), for pairs of which one changed in the last update; all before the first.
+  template <class Visit>
+  void for_each_changed(Visit visit) const {
+    const auto test = [&](std::uint32_t i, std::uint32_t j) {
+      visit(i, j);
+      return true;
+    };
+    if (!nodes_.empty()) within(0, round_, test);
   }
 
  private:
@@ -58,73 +75,96 @@ class TrianglePairs {
     std::uint32_t second = 0;     ///< the second child; 0 in a leaf
     std::uint32_t turned = none;  ///< the place of its turned box, if it has one
     std::uint32_t fan = none;     ///< the place of the arcs of all its triangles, if it is one
+    std::uint32_t round = 0;      ///< the update that changed any of them last
   };
   struct Item {
     Box3 box;
     std::uint32_t index = 0;
+    std::uint32_t round = 0;
   };
   struct Fan {
     BoxTree arcs;
     std::uint32_t first;  ///< arc i is that of items_[first + i]
+    std::uint32_t hub;
   };
   class Builder;
+
+  /// The arcs that the triangles of a fan show to its hub.
+  [[nodiscard]] static BoxTree arcs_of(std::span<const Item> items, std::uint32_t hub,
+                                       std::span<const Corners> triangles,
+                                       std::span<const Vertices> vertices);
+  /// Of the places of the changed ones among the items those of a node.
+  void refresh(std::uint32_t node, std::span<const std::uint32_t> places,
+               std::span<const Corners> triangles, std::span<const Vertices> vertices);
 
   /// Whether turned boxes show two nodes apart.
   [[nodiscard]] bool are_apart(const Node& a, const Node& b) const;
 
+  /// Pairs of which none changed since a round are left out.
   template <class Test>
-  bool within(std::uint32_t node, Test& test) const;
+  bool within(std::uint32_t node, std::uint32_t since, Test& test) const;
   template <class Test>
-  bool between(std::uint32_t a, std::uint32_t b, Test& test) const;
+  bool between(std::uint32_t a, std::uint32_t b, std::uint32_t since, Test& test) const;
   template <class Test>
-  bool leaves(const Node& a, const Node& b, Test& test) const;
+  bool leaves(const Node& a, const Node& b, std::uint32_t since, Test& test) const;
+  template <class Test>
+  bool pair(const Item& a, const Item& b, std::uint32_t since, Test& test) const {
+    return std::max(a.round, b.round) < since || !boxes_meet(a.box, b.box) ||
+           test(a.index, b.index);
+  }
 
   std::vector<Item> items_;
   std::vector<Node> nodes_;  ///< root first, parents before children
   std::vector<TurnedBox> turned_;
   std::vector<Fan> fans_;
+  std::uint32_t round_ = 0;            ///< how many updates there were
+  std::vector<std::uint32_t> places_;  ///< of each triangle among the items, once they are asked
 };
 
 template <class Test>
-bool TrianglePairs::within(std::uint32_t node, Test& test) const {
+bool TrianglePairs::within(std::uint32_t node, std::uint32_t since, Test& test) const {
   const Node& n = nodes_[node];
+  if (n.round < since) return true;
   if (n.fan != none) {
     const Fan& fan = fans_[n.fan];
     return fan.arcs.all_of_pairs([&](std::uint32_t i, std::uint32_t j) {
-      return test(items_[fan.first + i].index, items_[fan.first + j].index);
+      const Item& a = items_[fan.first + i];
+      const Item& b = items_[fan.first + j];
+      return std::max(a.round, b.round) < since || test(a.index, b.index);
     });
   }
   if (n.second != 0)
-    return within(node + 1, test) && within(n.second, test) && between(node + 1, n.second, test);
+    return within(node + 1, since, test) && within(n.second, since, test) &&
+           between(node + 1, n.second, since, test);
   for (std::uint32_t i = n.first; i < n.last; ++i)
     for (std::uint32_t j = i + 1; j < n.last; ++j)
-      if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))
-        return false;
+      if (!pair(items_[i], items_[j], since, test)) return false;
   return true;
 }
 
 /// Descends into the node of more triangles first.
 template <class Test>
-bool TrianglePairs::between(std::uint32_t a, std::uint32_t b, Test& test) const {
+bool TrianglePairs::between(std::uint32_t a, std::uint32_t b, std::uint32_t since,
+                            Test& test) const {
   const Node& node_a = nodes_[a];
   const Node& node_b = nodes_[b];
+  if (std::max(node_a.round, node_b.round) < since) return true;
   cdt::spend();
   if (!boxes_meet(node_a.box, node_b.box) || are_apart(node_a, node_b)) return true;
-  if (node_a.second == 0 && node_b.second == 0) return leaves(node_a, node_b, test);
+  if (node_a.second == 0 && node_b.second == 0) return leaves(node_a, node_b, since, test);
   if (node_b.second == 0 ||
       (node_a.second != 0 && node_a.last - node_a.first >= node_b.last - node_b.first))
-    return between(a + 1, b, test) && between(node_a.second, b, test);
-  return between(a, b + 1, test) && between(a, node_b.second, test);
+    return between(a + 1, b, since, test) && between(node_a.second, b, since, test);
+  return between(a, b + 1, since, test) && between(a, node_b.second, since, test);
 }
 
 template <class Test>
-bool TrianglePairs::leaves(const Node& a, const Node& b, Test& test) const {
+bool TrianglePairs::leaves(const Node& a, const Node& b, std::uint32_t since, Test& test) const {
   for (std::uint32_t i = a.first; i < a.last; ++i) {
     cdt::spend();
     if (!boxes_meet(items_[i].box, b.box)) continue;
     for (std::uint32_t j = b.first; j < b.last; ++j)
-      if (boxes_meet(items_[i].box, items_[j].box) && !test(items_[i].index, items_[j].index))
-        return false;
+      if (!pair(items_[i], items_[j], since, test)) return false;
   }
   return true;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <variant>
@@ -11,7 +12,6 @@
 
 #include "mesh/predicates.h"
 #include "mesh/triangle_pairs.h"
-#include "mesh/triangle_tree.h"
 #include "mesh/vec3.h"
 
 namespace loft {
@@ -358,43 +358,26 @@ class Smoothing {
 
   /// The tiles that are degenerate or meet others elsewhere than in common corners and edges.
   void find_meeting() {
-    if (is_met_.empty()) {  // the first time
+    if (!pairs_) {
       doubtful_.resize(tiles_.tiles.size());
       std::iota(doubtful_.begin(), doubtful_.end(), 0U);
+      corners_.resize(tiles_.tiles.size());
+      for (const Tile& tile : tiles_.tiles) nodes_.push_back(tile.nodes);
     }
     is_met_.assign(tiles_.tiles.size(), false);
-    std::vector<Corners> corners;
-    std::vector<TrianglePairs::Vertices> nodes_of;
     for (const std::uint32_t t : doubtful_) {
-      const Corners& c = corners.emplace_back(this->corners(t));
-      nodes_of.push_back(tiles_.tiles[t].nodes);
+      const Corners& c = corners_[t] = corners(t);
       is_met_[t] = collinear(c[0], c[1], c[2]);
     }
-    const std::size_t node_count = contour_count_ + tiles_.inner.size();
-    TrianglePairs(corners, nodes_of, node_count).for_each([&](std::uint32_t i, std::uint32_t j) {
-      note_meeting(doubtful_[i], doubtful_[j], corners[i], corners[j]);
-    });
-    if (doubtful_.size() < tiles_.tiles.size()) find_meeting_others(corners);
-  }
-
-  /// Those that doubtful ones meet among the others.
-  void find_meeting_others(std::span<const Corners> doubtful) {
-    const TriangleTree tree(doubtful);
-    std::vector<bool> is_doubtful(tiles_.tiles.size());
-    for (const std::uint32_t t : doubtful_) is_doubtful[t] = true;
-    for (std::uint32_t t = 0; t < tiles_.tiles.size(); ++t) {
-      if (is_doubtful[t]) continue;
-      const Corners corners = this->corners(t);
-      static_cast<void>(tree.all_of_meeting(corners, [&](std::uint32_t i, const Corners& other) {
-        note_meeting(t, doubtful_[i], corners, other);
-        return true;
-      }));
+    if (pairs_) {
+      pairs_->update(doubtful_, corners_, nodes_);
+    } else {
+      pairs_.emplace(corners_, nodes_, contour_count_ + tiles_.inner.size());
     }
-  }
-
-  void note_meeting(std::uint32_t a, std::uint32_t b, const Corners& of_a, const Corners& of_b) {
-    if ((is_met_[a] && is_met_[b]) || !triangles_meet(of_a, of_b)) return;
-    is_met_[a] = is_met_[b] = true;
+    pairs_->for_each_changed([&](std::uint32_t i, std::uint32_t j) {
+      if ((is_met_[i] && is_met_[j]) || !triangles_meet(corners_[i], corners_[j])) return;
+      is_met_[i] = is_met_[j] = true;
+    });
   }
 
   const Region& lower_;
@@ -408,7 +391,10 @@ class Smoothing {
   std::vector<Move> moves_;              // of each inner vertex
   std::vector<bool> is_met_;             // of each tile, when that was looked at last
   std::vector<std::uint32_t> doubtful_;  // the tiles of which that has to be found anew
-  EdgeIndex middles_;                    // the node that each edge is split at; none if it stays
+  std::vector<Corners> corners_;         // of each tile, then
+  std::vector<TrianglePairs::Vertices> nodes_;
+  std::optional<TrianglePairs> pairs_;  // of those that may meet
+  EdgeIndex middles_;                   // the node that each edge is split at; none if it stays
 };
 
 }  // namespace

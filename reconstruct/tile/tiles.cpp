@@ -9,8 +9,8 @@
 
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
-#include "mesh/box_tree.h"
 #include "mesh/predicates.h"
+#include "mesh/triangle_pairs.h"
 #include "reconstruct/tile/crossings.h"
 #include "reconstruct/tile/slab.h"
 
@@ -376,20 +376,19 @@ std::optional<TileSet> tile_moved(const Region& lower, const Region& upper, Poin
 bool tiles_meet(const Region& lower, const Region& upper, const TileSet& tiles,
                 std::size_t& pairs_left) {
   std::vector<Corners> corners;
-  std::vector<Box3> boxes;
+  std::vector<TrianglePairs::Vertices> nodes;
   for (const Tile& tile : tiles.tiles) {
     auto& places = corners.emplace_back();
     for (unsigned i = 0; i < 3; ++i) places[i] = place_of(lower, upper, tiles.inner, tile.nodes[i]);
-    boxes.push_back(box_around(places[0], places[1], places[2]));
+    nodes.push_back(tile.nodes);
     if (collinear(places[0], places[1], places[2])) return true;
   }
-  bool is_found = false;
-  BoxTree(boxes).for_each_pair([&](std::uint32_t i, std::uint32_t j) {
-    if (is_found || pairs_left == 0) return;
+  const std::size_t node_count = lower.points.size() + upper.points.size() + tiles.inner.size();
+  return !TrianglePairs(corners, nodes, node_count).all_of([&](std::uint32_t i, std::uint32_t j) {
+    if (pairs_left == 0) return false;
     --pairs_left;
-    is_found = triangles_meet(corners[i], corners[j]);
+    return !triangles_meet(corners[i], corners[j]);
   });
-  return is_found || pairs_left == 0;
 }
 
 double doubt(const Region& lower, const Region& upper) { return scale(lower, upper).tight; }

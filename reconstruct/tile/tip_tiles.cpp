@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cdt/regions.h"
-#include "mesh/triangle_pairs.h"
 #include "reconstruct/tile/tip_sheet.h"
 
 namespace loft {
@@ -29,7 +28,9 @@ class TipTiling {
       for (std::size_t k = 0; k < loop.size(); ++k)
         add_wall(part().loop_starts[i] + k, loop[k], loop[(k + 1) % loop.size()]);
     }
-    if (sheet_.is_doubtful() && meet()) return {};
+    if (std::size_t pairs_left = any_number;
+        sheet_.is_doubtful() && tiles_meet(lower_, upper_, tiles_, pairs_left))
+      return {};
     return std::move(tiles_);
   }
 
@@ -111,25 +112,6 @@ class TipTiling {
            corner[wall_.apex(e).index()]},
           FaceKind::wall);
     }
-  }
-
-  /// Whether two tiles meet elsewhere than in common corners and edges (exact).
-  [[nodiscard]] bool meet() const {
-    std::vector<Corners> corners;
-    std::vector<TrianglePairs::Vertices> nodes;
-    for (const Tile& tile : tiles_.tiles) {
-      Corners& places = corners.emplace_back();
-      for (unsigned i = 0; i < 3; ++i)
-        places[i] = place_of(lower_, upper_, tiles_.inner, tile.nodes[i]);
-      nodes.push_back(tile.nodes);
-      if (collinear(places[0], places[1], places[2])) return true;
-    }
-    bool is_found = false;
-    TrianglePairs(corners, nodes, contour_count() + tiles_.inner.size())
-        .for_each([&](std::uint32_t i, std::uint32_t j) {
-          is_found = is_found || triangles_meet(corners[i], corners[j]);
-        });
-    return is_found;
   }
 
   const Region& lower_;

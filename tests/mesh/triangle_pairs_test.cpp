@@ -158,6 +158,51 @@ TEST(TrianglePairs, StepsGrowHardlyFasterThanTriangles) {
   }
 }
 
+TEST(TrianglePairs, FindsWhatChangedTrianglesMeetUpdateAfterUpdate) {
+  constexpr unsigned seed = 37;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  for (const std::uint32_t hubs : {1U, 3U, 40U}) {
+    Mesh mesh = random_fans(random, hubs, 300, 1);
+    TrianglePairs pairs(corners_of(mesh), mesh.faces, mesh.points.size());
+    for (int round = 0; round < 6; ++round) {
+      Mesh moved = mesh;
+      for (std::size_t i = 0; i < 5; ++i)
+        moved.points[random() % moved.points.size()][i % 3] += 0.37;
+      const std::vector<Corners> before = corners_of(mesh);
+      const std::vector<Corners> triangles = corners_of(moved);
+      std::vector<std::uint32_t> changed;
+      for (std::uint32_t t = 0; t < triangles.size(); ++t)
+        if (triangles[t] != before[t]) changed.push_back(t);
+      pairs.update(changed, triangles, mesh.faces);
+      Pairs found;
+      pairs.for_each_changed([&](std::uint32_t i, std::uint32_t j) {
+        if (triangles_meet(triangles[i], triangles[j])) found.emplace_back(std::minmax({i, j}));
+      });
+      std::ranges::sort(found);
+      Pairs expected = meeting_by_all_pairs(triangles);
+      std::erase_if(expected, [&](const auto& pair) {
+        return !std::ranges::binary_search(changed, pair.first) &&
+               !std::ranges::binary_search(changed, pair.second);
+      });
+      EXPECT_EQ(found, expected) << hubs << ' ' << round;
+      mesh = moved;
+    }
+  }
+}
+
+TEST(TrianglePairs, TestsAFewPairsWhereOneTriangleOfAFanChanged) {
+  constexpr std::uint32_t n = 8000;
+  Mesh mesh = cone(n);
+  TrianglePairs pairs(corners_of(mesh), mesh.faces, mesh.points.size());
+  mesh.points[7][2] = 0.1;
+  pairs.update(std::vector{5U, 6U}, corners_of(mesh), mesh.faces);
+  std::size_t tested = 0;
+  pairs.for_each_changed([&](std::uint32_t, std::uint32_t) { ++tested; });
+  EXPECT_GT(tested, 0U);
+  EXPECT_LT(tested, 100U);
+}
+
 TEST(TrianglePairs, StopsAtThePairThatFails) {
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector(50, std::array{0U, 1U, 2U})};
   int count = 0;
