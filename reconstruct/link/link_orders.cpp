@@ -420,6 +420,17 @@ class Ordering {
         piece.shift = groups_[g].shift;
       }
     }
+    // What overlap links anyway is not taken apart again, where an order asks for it.
+    for (const SlabOrder* order : part_orders_) {
+      const std::uint32_t piece = piece_of(Level::lower, order->lower);
+      if (order->is_link && piece == piece_of(Level::upper, order->upper) &&
+          is_tangle(result_.pieces.pieces[piece]))
+        result_.pieces.pieces[piece].reason = LinkReason::order;
+    }
+  }
+
+  [[nodiscard]] static bool is_tangle(const Piece& piece) {
+    return piece.lower.parts > 1 && piece.upper.parts > 1;
   }
 
   [[nodiscard]] std::uint32_t piece_of(Level level, std::span<const std::uint32_t> loops) const {
@@ -439,7 +450,8 @@ class Ordering {
                          LinkReason::order};
       const bool are_ends = pieces[ends.lower].is_end() && pieces[ends.upper].is_end();
       const bool is_of_holes = std::ranges::find(hole_orders_, &order) != hole_orders_.end();
-      if (are_ends && !order.is_link) result_.forbidden.push_back(ends);
+      const bool is_any_end = pieces[ends.lower].is_end() || pieces[ends.upper].is_end();
+      if (is_any_end && !order.is_link) result_.forbidden.push_back(ends);
       if (!is_of_holes || (ends.lower == ends.upper) == order.is_link) continue;
       if (are_ends && order.is_link) {
         result_.wanted.push_back(ends);

@@ -58,7 +58,7 @@ struct OrderedTiles {
   TileSet tiles;
   Pieces pieces;
   std::vector<EndLink> wanted;     ///< cavities to link
-  std::vector<EndLink> forbidden;  ///< ends that must not be linked
+  std::vector<EndLink> forbidden;  ///< ends that must not be linked, or joined to a piece
   std::vector<Refusal> refusals;
 };
 

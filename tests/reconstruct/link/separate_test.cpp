@@ -71,6 +71,16 @@ TEST(Separate, PartsThatOverlapAsMuchCrosswiseStayTogether) {
   EXPECT_EQ(count(made, LinkKind::tangle), 1U);
 }
 
+TEST(Separate, AnOrderKeepsThemTogether) {
+  Options options;
+  options.links = {{{1, 0}, {2, 1}, true}};
+  std::vector<Slice> slices = pair_of_discs(-0.9);
+  const Reconstructed made = reconstruct(slices, options);
+  EXPECT_EQ(solids::faults(made.surface), "");
+  EXPECT_EQ(measure(made.surface).components, 1U);
+  EXPECT_TRUE(made.repairs.empty());
+}
+
 TEST(Separate, EditsLeadToTheSameSurfaceAsTheWholeStack) {
   constexpr std::uint64_t seed = 3;
   Reconstruction live;
@@ -97,6 +107,15 @@ TEST(Joins, WhatDoesNotComeFromAPartIsNotJoinedToIt) {
   for (std::size_t i = 2; i < slices.size(); ++i)
     slices[i].contours = {disc({-1.0 * double(i), 0}), disc({2.4, 3.0 * double(i)})};
   EXPECT_EQ(measure(solid(slices).surface).components, 2U);
+}
+
+TEST(Joins, AnOrderKeepsABranchFromItsTrunk) {
+  Options options;
+  options.links = {{{1, 0}, {2, 0}, false}};
+  const Reconstructed made = reconstruct(fork_of_discs(2.1), options);
+  EXPECT_EQ(solids::faults(made.surface), "");
+  EXPECT_EQ(measure(made.surface).components, 2U);
+  EXPECT_TRUE(made.repairs.empty());
 }
 
 TEST(Joins, EditsLeadToTheSameSurfaceAsTheWholeStack) {
