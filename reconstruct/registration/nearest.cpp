@@ -77,16 +77,17 @@ StretchTree::Nearest StretchTree::nearest(const Stretch& stretch) const {
 /// of them does not depend on how they are turned.
 void StretchTree::all_nearest(const Stretch& stretch, std::vector<std::uint32_t>& found) const {
   constexpr double rounding = 1e-9;
+  constexpr std::size_t found_of_step = 16;
   const double least = nearest(stretch).cost;
   found.clear();
   gather(0, items_.size(), key(stretch), least + rounding * (least + direction_ * direction_),
          found);
+  cdt::spend(1 + found.size() / found_of_step);
 }
 
 void StretchTree::gather(std::size_t first, std::size_t last, const Key& wanted, double most,
                          std::vector<std::uint32_t>& found) const {
   if (first == last) return;
-  cdt::spend();
   const std::size_t middle = first + (last - first) / 2;
   const auto& [key, index, axis] = items_[middle];
   double cost = 0;

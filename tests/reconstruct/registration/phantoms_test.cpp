@@ -50,7 +50,7 @@ void look_at(std::uint64_t seed, bool is_smooth, std::map<std::string, Count>& c
 void expect_whole(bool is_smooth) {
   const char* wanted = std::getenv("LOFT_SOAK_PHANTOMS");
   const std::uint64_t seeds =
-      wanted == nullptr ? (is_smooth ? 20 : 40) : std::strtoull(wanted, nullptr, 10);
+      wanted == nullptr ? (is_smooth ? 10 : 20) : std::strtoull(wanted, nullptr, 10);
   std::map<std::string, Count> counts;
   for (std::uint64_t seed = 0; seed < seeds; ++seed) look_at(seed, is_smooth, counts);
   for (const auto& [group, count] : counts)
