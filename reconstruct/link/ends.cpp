@@ -115,12 +115,15 @@ class Matching {
   };
 
   [[nodiscard]] Targets targets(Level level) const {
+    std::vector<bool> goes_on(slab_.pieces->pieces.size());  // of ends; find_pairs() dropped others
+    for (const End& end : lower_) goes_on[end.piece] = true;
+    for (const End& end : upper_) goes_on[end.piece] = true;
     std::vector<std::uint32_t> found;
     std::vector<Box3> boxes;
     for (std::uint32_t i = 0; i < slab_.pieces->pieces.size(); ++i) {
       const Piece& piece = slab_.pieces->pieces[i];
       const Footprint& part = piece.footprint(level);
-      if (part.parts != 1 || piece.is_tip()) continue;
+      if (part.parts != 1 || piece.is_tip() || (piece.is_end() && !goes_on[i])) continue;
       found.push_back(i);
       boxes.push_back(box_around(part.centroid, part.radius));
     }
@@ -133,7 +136,7 @@ class Matching {
             std::vector<EndLink>& links) const {
     std::optional<Targets> targets;
     for (const End& end : ends) {
-      if (is_taken[end.piece] || !end.trend) continue;
+      if (is_taken[end.piece] || !end.trend || is_named_in_forbidden(end.piece)) continue;
       if (!targets) targets = this->targets(other(level));
       if (const auto link = join(end, level, *targets)) links.push_back(*link);
     }
@@ -141,8 +144,10 @@ class Matching {
 
   [[nodiscard]] std::optional<EndLink> join(const End& end, Level level,
                                             const Targets& targets) const {
+    constexpr double rounding = 1e-9;
     double least = std::numeric_limits<double>::infinity();
     std::optional<EndLink> best;
+    bool is_tie = false;
     targets.boxes.for_each_meeting(reach_of_join(end), [&](std::uint32_t target) {
       const std::uint32_t i = targets.pieces[target];
       const Piece& piece = slab_.pieces->pieces[i];
@@ -150,10 +155,16 @@ class Matching {
                                                  : EndLink{i, end.piece, LinkReason::predicted};
       if (piece.is_solid != end.is_solid || is_forbidden(link.lower, link.upper)) return;
       const double off = off_outline(end, piece.footprint(other(level)));
+      const double nearly = rounding * end.radius;
+      if (off < least - nearly)
+        is_tie = false;
+      else if (off <= least + nearly && best)
+        is_tie = true;
       if (!(off < least)) return;
       least = off;
       best = link;
     });
+    if (is_tie) return {};  // rounding would decide
     return best;
   }
 
@@ -274,6 +285,13 @@ class Matching {
   /// The way of a part with a trend, if it goes on as it was.
   [[nodiscard]] Point expected(const End& end) const {
     return {end.trend->velocity.x * slab_.gap, end.trend->velocity.y * slab_.gap};
+  }
+
+  /// An order keeps it from something: it might be joined to that by way of a third part.
+  [[nodiscard]] bool is_named_in_forbidden(std::uint32_t piece) const {
+    return std::ranges::any_of(forbidden_, [&](const EndLink& link) {
+      return link.lower == piece || link.upper == piece;
+    });
   }
 
   [[nodiscard]] bool is_forbidden(std::uint32_t lower, std::uint32_t upper) const {

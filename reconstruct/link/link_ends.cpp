@@ -89,12 +89,18 @@ std::vector<cdt::Point> ways_of_ends(const Pieces& pieces, std::span<const EndLi
     const cdt::Point from = own.footprint(level).centroid;
     const cdt::Point to = joined.footprint(other(level)).centroid;
     for (const std::uint32_t loop : own.footprint(level).loops) {
-      const auto place = std::ranges::lower_bound(loops, loop);
-      if (place != loops.end() && *place == loop)
+      const auto place = std::ranges::find(loops, loop);
+      if (place != loops.end())
         ways[static_cast<std::size_t>(place - loops.begin())] = {to.x - from.x, to.y - from.y};
     }
   }
   return ways;
+}
+
+/// Whether all outlines are joined by one surface.
+bool is_one(const Region& lower, const Region& upper, const Moved& moved) {
+  const Pieces pieces = find_pieces(lower, upper, moved.tiles);
+  return std::ranges::count(pieces.pieces, moved.piece.is_solid, &Piece::is_solid) == 1;
 }
 
 /// Ends, and what goes on beside them, as one piece. None if no more than they are by themselves.
@@ -119,7 +125,7 @@ std::optional<Replacement> join(const Region& lower, const Region& upper, const 
   const LoopWays ways{ways_of_ends(pieces, links, Level::lower, whole.lower.loops),
                       ways_of_ends(pieces, links, Level::upper, whole.upper.loops)};
   auto moved = move_by_places(lower, upper, whole, is_wanted, ways);
-  if (!moved) return {};
+  if (!moved || !is_one(lower, upper, *moved)) return {};
   moved->piece.reason = LinkReason::predicted;
   moved->piece.bends = true;
   return replacement(std::move(*moved), {members.begin(), members.end()});
@@ -158,6 +164,8 @@ void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces&
   std::vector<Replacement> replacements;
   const std::vector<std::uint32_t> group = groups(pieces.pieces.size(), links);
   std::vector<std::vector<std::uint32_t>> members(group.size());
+  std::vector<std::vector<EndLink>> links_of(group.size());
+  for (const EndLink& link : links) links_of[group[link.lower]].push_back(link);
   for (std::uint32_t i = 0; i < group.size(); ++i) members[group[i]].push_back(i);
   const auto are_ends = [&](const EndLink& link) {
     return pieces.pieces[link.lower].is_end() && pieces.pieces[link.upper].is_end();
@@ -169,7 +177,7 @@ void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces&
     if (is_joined[first] || (members[first].size() == 2 && are_ends(link))) continue;
     is_joined[first] = true;
     if (before.empty()) before = differences(lower, upper, tiles, pieces);
-    auto joined = join(lower, upper, pieces, links, before, members[first]);
+    auto joined = join(lower, upper, pieces, links_of[first], before, members[first]);
     is_joined[first] = joined.has_value();
     if (joined) replacements.push_back(std::move(*joined));
   }

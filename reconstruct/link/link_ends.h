@@ -13,7 +13,7 @@ namespace loft {
 /// an overlap, too, they are moved as their outlines match (move_by_loops()); else the match is
 /// left out, unless an order asks for it. Ends that are branches of something are moved with it as
 /// their places match, from over it (move_by_places()). Where these tiles meet nothing else (exact
-/// test), they take the place of the two ends.
+/// test), they take the place of what they join; else that stays as it was.
 void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
                std::span<const EndLink> links);
 

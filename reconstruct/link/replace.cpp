@@ -159,6 +159,7 @@ class Replacing {
       of_kept.push_back(pieces_.of_tile[t]);
     }
     tiles_.tiles = std::move(kept);
+    tiles_.is_plain = false;
     pieces_.of_tile = std::move(of_kept);
     drop_unused_inner(tiles_.tiles, tiles_.inner, contour_count_);
     for (std::uint32_t r = 0; r < replacements_.size(); ++r) {

@@ -21,6 +21,8 @@ using cdt::Point;
 
 /// An overlap is little if it is less than that share of the largest that each of its parts has.
 constexpr double little = 0.5;
+/// Groups that were moved over each other must overlap that much.
+constexpr double least_overlap = 0.4;
 
 /// Parts of both slices, by nodes: those of the lower one first.
 std::vector<std::uint32_t> group_parts(const PartGraph& graph) {
@@ -43,23 +45,28 @@ std::vector<std::uint32_t> group_parts(const PartGraph& graph) {
   return group;
 }
 
+bool has_all(const std::vector<std::uint32_t>& parts) {
+  return std::ranges::find(parts, Origin::none) == parts.end();
+}
+
 /// The groups of a piece as pieces; none if there is one only, or one without a part of each slice.
 std::vector<Piece> groups_of(const Region& lower, const Region& upper, const Piece& piece) {
   const Extract below(lower, piece.lower.loops, piece.is_solid);
   const Extract above(upper, piece.upper.loops, piece.is_solid);
   const PartGraph graph = find_parts(below.region(), above.region());
+  if (!has_all(graph.lower_part) || !has_all(graph.upper_part)) return {};
   const std::vector<std::uint32_t> group = group_parts(graph);
+  std::vector<Piece> all(group.size());
+  for (std::size_t i = 0; i < piece.lower.loops.size(); ++i)
+    all[group[graph.lower_part[i]]].lower.loops.push_back(piece.lower.loops[i]);
+  for (std::size_t i = 0; i < piece.upper.loops.size(); ++i)
+    all[group[graph.lower_count + graph.upper_part[i]]].upper.loops.push_back(piece.upper.loops[i]);
   std::vector<Piece> groups;
-  for (std::uint32_t g = 0; g < group.size(); ++g) {
+  for (std::uint32_t g = 0; g < all.size(); ++g) {
     if (group[g] != g) continue;
-    Piece one;
-    one.is_solid = piece.is_solid;
-    for (std::size_t i = 0; i < piece.lower.loops.size(); ++i)
-      if (group[graph.lower_part[i]] == g) one.lower.loops.push_back(piece.lower.loops[i]);
-    for (std::size_t i = 0; i < piece.upper.loops.size(); ++i)
-      if (group[graph.lower_count + graph.upper_part[i]] == g)
-        one.upper.loops.push_back(piece.upper.loops[i]);
+    Piece& one = all[g];
     if (one.lower.is_empty() || one.upper.is_empty()) return {};
+    one.is_solid = piece.is_solid;
     measure(lower, one.lower);
     measure(upper, one.upper);
     groups.push_back(std::move(one));
@@ -68,11 +75,11 @@ std::vector<Piece> groups_of(const Region& lower, const Region& upper, const Pie
   return groups;
 }
 
-/// Tiles of all groups; none if some meet.
+/// Tiles of all groups; none if some meet, or if those that are moved do not come over each other.
 std::optional<Replacement> tile_groups(const Region& lower, const Region& upper,
                                        std::vector<Piece> groups, bool are_moved,
                                        std::optional<double> max_shift, std::size_t most_pairs) {
-  std::optional<Replacement> all;
+  std::vector<Replacement> each;
   for (Piece& group : groups) {
     if (are_moved && group.lower.parts == 1 && group.upper.parts == 1) {
       group.shift = offset(group);
@@ -82,13 +89,12 @@ std::optional<Replacement> tile_groups(const Region& lower, const Region& upper,
     }
     auto moved = move_by_shift(lower, upper, std::move(group), most_pairs);
     if (!moved) return {};
-    std::vector<Replacement> more;
-    more.push_back(replacement(std::move(*moved), {}));
-    if (!all)
-      all = std::move(more.front());
-    else if (!replace(lower, upper, all->tiles, all->pieces, more))
-      return {};
+    if (are_moved && !is_within(least_overlap, overlap(moved->piece, moved->difference))) return {};
+    each.push_back(replacement(std::move(*moved), {}));
   }
+  Replacement all;
+  replace(lower, upper, all.tiles, all.pieces, each);
+  if (all.pieces.pieces.size() != groups.size()) return {};
   return all;
 }
 

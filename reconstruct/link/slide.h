@@ -15,8 +15,9 @@ namespace loft {
 /// in both slices, are moved as these match (move_by_loops()), if that leaves no windows and
 /// handles. After it, whatever still overlaps by less than 0.8, with any outlines, as at forks,
 /// is moved as their places match (move_by_places()), if that takes away enough of the difference,
-/// the more, the more overlaps, and brings the volume nearer to that of a frustum. A function of
-/// the two slices.
+/// the more, the more overlaps, and brings the volume nearer to that of a frustum, or if they
+/// overlap by less than 0.4, are as large, and no more than a tenth of the difference is left. A
+/// function of the two slices.
 void slide(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
            std::optional<double> max_shift);
 

@@ -42,12 +42,11 @@ class Retiling {
     keep_tiles();
     if (!has_none_concerned() && !make_tiles()) return {};
     result_.pieces = find_pieces(change_.lower, change_.upper, result_.tiles);
-    if (options_.link == LinkRule::automatic) {
-      const std::size_t count = result_.tiles.tiles.size();
-      slide(change_.lower, change_.upper, result_.tiles, result_.pieces, options_.max_shift);
-      if (result_.tiles.tiles.size() != count || !all_by_overlap(result_.pieces)) return {};
-    }
     result_.tiles.is_plain = true;
+    if (options_.link == LinkRule::automatic) {
+      slide(change_.lower, change_.upper, result_.tiles, result_.pieces, options_.max_shift);
+      if (!result_.tiles.is_plain) return {};
+    }
     return std::move(result_);
   }
 

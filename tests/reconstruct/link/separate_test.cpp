@@ -81,6 +81,14 @@ TEST(Separate, AnOrderKeepsThemTogether) {
   EXPECT_TRUE(made.repairs.empty());
 }
 
+TEST(Separate, AnEditOfOnePartLooksAtTheOtherOne) {
+  Reconstruction live;
+  for (const Slice& slice : pair_of_discs(0.9, 2)) live.insert(slice);
+  live.replace(0, Slice{0, {stacks::circle(corners, 0.3, {-0.6, 0}), disc({2.6, 0})}});
+  EXPECT_EQ(edits::difference(live, {}), "");
+  EXPECT_EQ(solids::faults(live.snapshot().surface(1)), "");
+}
+
 TEST(Separate, EditsLeadToTheSameSurfaceAsTheWholeStack) {
   constexpr std::uint64_t seed = 3;
   Reconstruction live;
