@@ -13,8 +13,6 @@ namespace loft {
 
 namespace {
 
-/// Parts that were moved over each other must overlap that much.
-constexpr double least_overlap = 0.4;
 /// Joining ends to what goes on beside them leaves no more of all their differences than that.
 constexpr double most_of_joined = 0.9;
 
@@ -47,12 +45,10 @@ std::optional<Replacement> move_shell(const Region& lower, const Region& upper,
   auto inner = move_by_shift(lower, upper, std::move(inside));
   if (!outer || !inner || !is_within(least_overlap, overlap(outer->piece, outer->difference)))
     return std::nullopt;
-  // As if the outer ones were there before: one more test of the same kind.
-  Replacement shell = replacement(std::move(*outer), {});
-  std::vector<Replacement> more;
-  more.push_back(replacement(std::move(*inner), {}));
-  if (!replace(lower, upper, shell.tiles, shell.pieces, more)) return std::nullopt;
-  return shell;
+  std::vector<Replacement> both;
+  both.push_back(replacement(std::move(*outer), {}));
+  both.push_back(replacement(std::move(*inner), {}));
+  return together(lower, upper, both);
 }
 
 /// The pieces that links join, directly or not: those of one with the same number, that of the

@@ -18,6 +18,9 @@ namespace loft {
 /// points moved by it lose little, and it does not depend on the order of sums.
 [[nodiscard]] cdt::Point offset(const Piece& piece);
 
+/// Parts that were moved over each other to be linked must overlap that much.
+inline constexpr double least_overlap = 0.4;
+
 /// The share of what two footprints cover together that both cover, by the area between them.
 [[nodiscard]] double overlap(const Piece& piece, double difference);
 

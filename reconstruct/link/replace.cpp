@@ -207,4 +207,14 @@ bool replace(const Region& lower, const Region& upper, TileSet& tiles, Pieces& p
   return Replacing(lower, upper, tiles, pieces, replacements).run();
 }
 
+std::optional<Replacement> together(const Region& lower, const Region& upper,
+                                    std::span<Replacement> each) {
+  std::size_t count = 0;
+  for (const Replacement& one : each) count += one.pieces.pieces.size();
+  Replacement all;
+  replace(lower, upper, all.tiles, all.pieces, each);
+  if (all.pieces.pieces.size() != count) return {};
+  return all;
+}
+
 }  // namespace loft

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct Replacement {
 /// Cost: O(tiles + replacements), O(log n) each.
 bool replace(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
              std::span<Replacement> replacements);
+
+/// Several as one that replaces nothing yet. None if some meet.
+[[nodiscard]] std::optional<Replacement> together(const Region& lower, const Region& upper,
+                                                  std::span<Replacement> each);
 
 /// Adds tiles behind others; inner vertices are renumbered.
 void append(TileSet& tiles, const TileSet& more, std::uint32_t contour_count);

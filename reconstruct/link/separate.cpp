@@ -21,8 +21,6 @@ using cdt::Point;
 
 /// An overlap is little if it is less than that share of the largest that each of its parts has.
 constexpr double little = 0.5;
-/// Groups that were moved over each other must overlap that much.
-constexpr double least_overlap = 0.4;
 
 /// Parts of both slices, by nodes: those of the lower one first.
 std::vector<std::uint32_t> group_parts(const PartGraph& graph) {
@@ -92,10 +90,7 @@ std::optional<Replacement> tile_groups(const Region& lower, const Region& upper,
     if (are_moved && !is_within(least_overlap, overlap(moved->piece, moved->difference))) return {};
     each.push_back(replacement(std::move(*moved), {}));
   }
-  Replacement all;
-  replace(lower, upper, all.tiles, all.pieces, each);
-  if (all.pieces.pieces.size() != groups.size()) return {};
-  return all;
+  return together(lower, upper, each);
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 #include <vector>
 
 #include "mesh/vec3.h"
 #include "reconstruct/plane/nearest.h"
+#include "reconstruct/registration/quads.h"
 #include "reconstruct/tile/sheet_heights.h"
 
 namespace loft {
@@ -74,14 +74,6 @@ void Frame::lift_anew(TileSet& tiles) const {
 
 namespace {
 
-/// A wall tile at an edge from the lower slice to the upper one.
-struct WallTile {
-  std::uint32_t lower;  // ends of the edge, by nodes
-  std::uint32_t upper;
-  std::uint32_t apex;
-  std::uint32_t tile;
-};
-
 void replace(Tile& tile, std::uint32_t node, std::uint32_t other) {
   *std::ranges::find(tile.nodes, node) = other;
 }
@@ -96,36 +88,19 @@ bool Frame::are_one(std::uint32_t lower_node, std::uint32_t upper_node, double r
 
 void Frame::choose_diagonals(TileSet& tiles) const {
   constexpr double rounding = 1e-9;  // relative
-  const auto lower_count = static_cast<std::uint32_t>(lower_.points.size());
-  const auto contour_count = lower_count + static_cast<std::uint32_t>(upper_.points.size());
-  std::vector<WallTile> sides;
-  for (std::uint32_t t = 0; t < tiles.tiles.size(); ++t) {
-    const auto& nodes = tiles.tiles[t].nodes;
-    if (tiles.tiles[t].kind != FaceKind::wall || std::ranges::max(nodes) >= contour_count) continue;
-    for (unsigned i = 0; i < 3; ++i) {
-      const auto [low, high] = std::minmax(nodes[i], nodes[(i + 1) % 3]);
-      if (low < lower_count && high >= lower_count)
-        sides.push_back({low, high, nodes[(i + 2) % 3], t});
-    }
-  }
-  std::ranges::sort(sides, {}, [](const WallTile& side) {
-    return std::tuple(side.lower, side.upper, side.apex, side.tile);
-  });
   const auto length = [&](std::uint32_t a, std::uint32_t b) {
     return loft::length(
         minus(place_of(lower_, upper_, tiles.inner, a), place_of(lower_, upper_, tiles.inner, b)));
   };
-  for (std::size_t i = 0; i + 1 < sides.size(); ++i) {
-    const WallTile& a = sides[i];      // with another vertex of the lower slice
-    const WallTile& b = sides[i + 1];  // with another one of the upper slice
-    if (a.lower != b.lower || a.upper != b.upper) continue;
-    if (a.apex >= lower_count || b.apex < lower_count) continue;
-    const double now = length(a.lower, a.upper);
-    if (!(length(a.apex, b.apex) < (1 - rounding) * now)) continue;
-    if (!are_one(a.apex, a.upper, rounding * now) || !are_one(a.lower, b.apex, rounding * now))
+  const auto is_wall = [](const Tile& tile) { return tile.kind == FaceKind::wall; };
+  for (const Quad& quad : find_quads(lower_, upper_, tiles, is_wall)) {
+    const double now = length(quad.lower, quad.upper);
+    if (!(length(quad.lower_apex, quad.upper_apex) < (1 - rounding) * now)) continue;
+    if (!are_one(quad.lower_apex, quad.upper, rounding * now) ||
+        !are_one(quad.lower, quad.upper_apex, rounding * now))
       continue;
-    replace(tiles.tiles[a.tile], a.upper, b.apex);
-    replace(tiles.tiles[b.tile], a.lower, a.apex);
+    replace(tiles.tiles[quad.lower_tile], quad.upper, quad.upper_apex);
+    replace(tiles.tiles[quad.upper_tile], quad.lower, quad.lower_apex);
   }
 }
 

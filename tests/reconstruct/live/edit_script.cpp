@@ -263,4 +263,16 @@ std::optional<SurfaceChange> RandomEdits::edit(Reconstruction& live) {
   return live.replace(z, std::move(slice));
 }
 
+std::string fault_of_edits(const std::vector<Slice>& pool, std::uint64_t seed, int count) {
+  Reconstruction live;
+  RandomEdits random(pool, seed);
+  for (int i = 0; i < count; ++i) {
+    std::string wrong = random.next(live);
+    if (wrong.empty()) wrong = difference(live, {});
+    if (!wrong.empty())
+      return "seed " + std::to_string(seed) + " edit " + std::to_string(i) + ": " + wrong;
+  }
+  return {};
+}
+
 }  // namespace loft::edits

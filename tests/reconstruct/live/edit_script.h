@@ -44,4 +44,9 @@ class RandomEdits {
   std::mt19937_64 random_;
 };
 
+/// The first thing wrong with random edits, or different from the surface built at once after one;
+/// empty if there is none.
+[[nodiscard]] std::string fault_of_edits(const std::vector<Slice>& pool, std::uint64_t seed,
+                                         int count);
+
 }  // namespace loft::edits
