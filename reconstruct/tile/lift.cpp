@@ -8,6 +8,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cdt/predicates.h"
 #include "reconstruct/tile/sheet_heights.h"
 
 namespace loft {
@@ -346,10 +347,11 @@ std::optional<VertexId> Lift::split_at(Point place) {
 }
 
 /// At a point on the edge; where a triangle beside it is so thin that the rounded point is beyond
-/// it, a little into the other triangle.
+/// it, a little into the other triangle; where both are, beside the edge, which is flipped away.
 std::optional<VertexId> Lift::split(EdgeId e, Point place) {
   if (const auto v = slab_.split(e, place)) return v;
-  for (const double share : {0x1p-40, 0x1p-30, 0x1p-20, 0x1p-10}) {
+  constexpr double shares[] = {0x1p-40, 0x1p-30, 0x1p-20, 0x1p-10};
+  for (const double share : shares) {
     for (const EdgeId side : {e, mesh_.twin(e)}) {
       if (mesh_.is_infinite(Triangulation::triangle(side))) continue;
       const Point apex = mesh_.point(mesh_.apex(side));
@@ -357,6 +359,33 @@ std::optional<VertexId> Lift::split(EdgeId e, Point place) {
                          place.y + share * (apex.y - place.y)};
       if (const auto v = slab_.split(e, inside)) return v;
     }
+  }
+  for (const double share : shares) {
+    for (const EdgeId side : {e, mesh_.twin(e)}) {
+      const Point a = mesh_.point(mesh_.from(side));
+      const Point b = mesh_.point(mesh_.to(side));
+      const Point beside{place.x - share * (b.y - a.y), place.y + share * (b.x - a.x)};
+      const auto t = triangle_beside(side, beside);
+      if (!t) continue;
+      if (const auto v = slab_.split(*t, beside)) return v;
+    }
+  }
+  return {};
+}
+
+/// The triangle with a point left of an edge, if no constrained edge is in between.
+std::optional<TriangleId> Lift::triangle_beside(EdgeId e, Point point) const {
+  constexpr int most_steps = 16;
+  const auto is_beyond = [&](EdgeId side) {
+    return cdt::orient(mesh_.point(mesh_.from(side)), mesh_.point(mesh_.to(side)), point) < 0;
+  };
+  for (int step = 0; step < most_steps; ++step) {
+    if (mesh_.is_infinite(Triangulation::triangle(e))) return {};
+    EdgeId ahead = Triangulation::next(e);
+    if (!is_beyond(ahead)) ahead = Triangulation::next(ahead);
+    if (!is_beyond(ahead)) return Triangulation::triangle(e);
+    if (mesh_.is_constrained(ahead)) return {};
+    e = mesh_.twin(ahead);
   }
   return {};
 }

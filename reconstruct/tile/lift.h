@@ -90,6 +90,8 @@ class Lift {
   std::optional<cdt::VertexId> split(const Steiner& steiner);
   std::optional<cdt::VertexId> split_at(cdt::Point place);
   std::optional<cdt::VertexId> split(cdt::EdgeId e, cdt::Point place);
+  [[nodiscard]] std::optional<cdt::TriangleId> triangle_beside(cdt::EdgeId e,
+                                                               cdt::Point point) const;
 
   Slab& slab_;
   const cdt::Triangulation& mesh_;
