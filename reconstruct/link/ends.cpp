@@ -30,6 +30,10 @@ constexpr double least_of_joined = 0.5;  // of the end's area, that of what it i
 /// Boxes for these are larger by that share of all that is in them: they must not miss a pair.
 constexpr double rounding_of_reach = 0x1p-28;
 
+/// Tips that would go sideways by less than that, in radii of their ends, stay: that is the noise
+/// of contours.
+constexpr double least_lean = 0.05;
+
 double length(Point p) { return std::hypot(p.x, p.y); }
 Point difference(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 
@@ -74,13 +78,16 @@ class Matching {
     look(above, Level::lower, upper_);
   }
 
-  std::vector<EndLink> run() {
-    std::vector<EndLink> links = find_links();
-    std::vector<bool> is_taken(slab_.pieces->pieces.size());
-    for (const EndLink& link : links) is_taken[link.lower] = is_taken[link.upper] = true;
-    join(lower_, is_taken, Level::lower, links);
-    join(upper_, is_taken, Level::upper, links);
-    return links;
+  EndPlan run() {
+    const auto leans = find_leans();  // of those that close, too
+    EndPlan plan{find_links(), {}};
+    std::vector<bool> is_taken = are_linked(plan.links);
+    join(lower_, is_taken, Level::lower, plan.links);
+    join(upper_, is_taken, Level::upper, plan.links);
+    is_taken = are_linked(plan.links);
+    for (const auto& [piece, lean] : leans)
+      if (!is_taken[piece]) plan.leans.push_back(lean);
+    return plan;
   }
 
   /// Of ends with ends.
@@ -101,6 +108,36 @@ class Matching {
   }
 
  private:
+  /// Which of the pieces links name.
+  [[nodiscard]] std::vector<bool> are_linked(std::span<const EndLink> links) const {
+    std::vector<bool> is_linked(slab_.pieces->pieces.size());
+    for (const EndLink& link : links) is_linked[link.lower] = is_linked[link.upper] = true;
+    return is_linked;
+  }
+
+  /// Of all ends, with their pieces.
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, EndLean>> find_leans() const {
+    std::vector<std::pair<std::uint32_t, EndLean>> leans;
+    for (const Level level : {Level::lower, Level::upper})
+      for (const End& end : level == Level::lower ? lower_ : upper_)
+        if (const auto velocity = this->lean(end))
+          leans.emplace_back(end.piece, EndLean{level, end.footprint->loops.front(), *velocity});
+    return leans;
+  }
+
+  /// The velocity of an end's axis, as far as there is evidence of one.
+  [[nodiscard]] std::optional<Point> lean(const End& end) const {
+    if (!end.trend) return {};
+    const double speed = length(end.trend->velocity);
+    const double way = speed * end.trend->gap;
+    const double moved = way - std::abs(end.radius - end.trend->radius);
+    const double height = std::min(end.radius, slab_.gap);
+    const double seen = std::max(end.trend->gap, height);
+    if (is_within(moved * height, least_lean * end.radius * seen)) return {};
+    const double share = moved / (speed * seen);
+    return Point{share * end.trend->velocity.x, share * end.trend->velocity.y};
+  }
+
   struct Pair {
     double cost;
     std::size_t lower;
@@ -310,10 +347,8 @@ class Matching {
 
 }  // namespace
 
-std::vector<EndLink> match_ends(const SlabPieces& below, const SlabPieces& slab,
-                                const SlabPieces& above, std::optional<double> max_shift,
-                                std::span<const EndLink> forbidden) {
-  if (slab.pieces->pieces.size() < 2) return {};
+EndPlan match_ends(const SlabPieces& below, const SlabPieces& slab, const SlabPieces& above,
+                   std::optional<double> max_shift, std::span<const EndLink> forbidden) {
   Matching matching(slab, max_shift, forbidden);
   if (!matching.is_possible()) return {};
   matching.look_around(below, above);

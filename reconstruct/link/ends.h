@@ -27,6 +27,24 @@ struct EndLink {
   friend bool operator==(const EndLink&, const EndLink&) = default;
 };
 
+/// An end that is linked with nothing, but leans as it came to its slice.
+struct EndLean {
+  Level level = Level::lower;  ///< the slice that its contours are in
+  std::uint32_t loop = 0;      ///< the first of its footprint
+  cdt::Point velocity;         ///< of its axis, by height from that slice
+
+  friend bool operator==(const EndLean&, const EndLean&) = default;
+};
+
+/// What is to become of the ends of a slab.
+struct EndPlan {
+  std::vector<EndLink> links;
+  std::vector<EndLean> leans;
+
+  [[nodiscard]] bool is_empty() const { return links.empty() && leans.empty(); }
+  friend bool operator==(const EndPlan&, const EndPlan&) = default;
+};
+
 /// Matches what ends in a slab with what begins there: parts with parts, cavities with cavities.
 ///
 /// Where the slab below or above tells how a part moves (it was, or will be, a piece of one part in
@@ -43,11 +61,14 @@ struct EndLink {
 /// An end that is no one's match, but goes on in the slab beside, is linked with a part of the
 /// other slice that is none (the other index is that piece's) if its predicted place is within
 /// that, taken as a circle, or beside it by at most a quarter of its own radius: a branch of a fork
-/// that has gone too far to overlap it. What it joins has at least half its area. A function of the
-/// slab's two slices and one on either side.
-[[nodiscard]] std::vector<EndLink> match_ends(const SlabPieces& below, const SlabPieces& slab,
-                                              const SlabPieces& above,
-                                              std::optional<double> max_shift,
-                                              std::span<const EndLink> forbidden);
+/// that has gone too far to overlap it. What it joins has at least half its area.
+///
+/// An end that is linked with nothing leans as it came, if its trend is known: less what its radius
+/// has changed by (what shrinks at one side moves its centroid by as much, and goes nowhere), no
+/// further than it has been seen to go, and only if its tip would go sideways by more than 0.05 of
+/// its radius. A function of the slab's two slices and one on either side.
+[[nodiscard]] EndPlan match_ends(const SlabPieces& below, const SlabPieces& slab,
+                                 const SlabPieces& above, std::optional<double> max_shift,
+                                 std::span<const EndLink> forbidden);
 
 }  // namespace loft

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "reconstruct/link/lean.h"
 #include "reconstruct/link/link_ends.h"
 
 namespace loft {
@@ -38,15 +39,16 @@ SlabPieces Linking::view(std::size_t slab) const {
 
 void Linking::match(std::size_t slab) {
   Slab& here = at(slab);
-  here.links = here.wanted;
+  here.ends.links = here.wanted;
   if (options_.link != LinkRule::automatic) return;
   const SlabPieces below = slab == 0 ? SlabPieces() : view(slab - 1);
-  for (const EndLink& link :
-       match_ends(below, view(slab), view(slab + 1), options_.max_shift, here.forbidden)) {
+  EndPlan found = match_ends(below, view(slab), view(slab + 1), options_.max_shift, here.forbidden);
+  here.ends.leans = std::move(found.leans);
+  for (const EndLink& link : found.links) {
     const bool is_free = std::ranges::none_of(here.wanted, [&](const EndLink& wanted) {
       return wanted.lower == link.lower || wanted.upper == link.upper;
     });
-    if (is_free) here.links.push_back(link);
+    if (is_free) here.ends.links.push_back(link);
   }
 }
 
@@ -81,7 +83,8 @@ const char* reason(const SlabOrder& order) {
 
 void Linking::link(std::size_t slab) {
   Slab& here = at(slab);
-  link_ends(region(slab), region(slab + 1), here.tiles, here.pieces, here.links);
+  link_ends(region(slab), region(slab + 1), here.tiles, here.pieces, here.ends.links);
+  lean_ends(region(slab), region(slab + 1), here.tiles, here.pieces, here.ends.leans);
   for (const SlabOrder& order : orders(slab)) {
     const bool is_refused =
         std::ranges::find(here.refusals, order.order, &Refusal::order) != here.refusals.end();

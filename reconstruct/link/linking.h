@@ -51,7 +51,7 @@ class Linking {
     Pieces pieces;
     std::vector<EndLink> wanted;
     std::vector<EndLink> forbidden;
-    std::vector<EndLink> links;
+    EndPlan ends;
     std::vector<Refusal> refusals;
   };
 

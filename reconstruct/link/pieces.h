@@ -54,6 +54,7 @@ struct Piece {
   /// Whether the slices tell over each place how it bends: not if it was registered, and overlaps
   /// little.
   bool bends = true;
+  cdt::Point lean = {};  ///< of an end: how far its axis goes sideways, by height from its slice
 
   [[nodiscard]] const Footprint& footprint(Level level) const {
     return level == Level::lower ? lower : upper;

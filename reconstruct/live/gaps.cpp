@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "reconstruct/link/lean.h"
 #include "reconstruct/link/link_ends.h"
 #include "reconstruct/link/link_orders.h"
 #include "reconstruct/live/retile.h"
@@ -68,8 +69,9 @@ bool Gaps::tile_in_part(Gap& gap) {
   LiveSlab& before = found->second;
   const FrozenSlab& old = *before.frozen;
   const bool is_lower_same = old.lower == gap.lower->region;
-  if (old.info.high != gap.upper->region->z || !before.is_sewn_as_tiled || !before.links.empty() ||
-      old.has_bottom_cap || old.has_top_cap || is_lower_same == (old.upper == gap.upper->region))
+  if (old.info.high != gap.upper->region->z || !before.is_sewn_as_tiled ||
+      !before.ends.is_empty() || old.has_bottom_cap || old.has_top_cap ||
+      is_lower_same == (old.upper == gap.upper->region))
     return false;
   const Station& changed = is_lower_same ? *gap.upper : *gap.lower;
   const auto& matches = match(changed, is_lower_same ? *old.upper : *old.lower);
@@ -113,20 +115,21 @@ SlabPieces Gaps::view(std::size_t i) const {
 void Gaps::link(std::size_t i) {
   Gap& gap = gaps_[i];
   if (!has_neighbours(i)) return;
-  std::vector<EndLink> links;
+  EndPlan ends;
   if (stack_.options.link == LinkRule::automatic)
-    links = match_ends(i == 0 ? SlabPieces() : view(i - 1), view(i), view(i + 1),
-                       stack_.options.max_shift, {});
+    ends = match_ends(i == 0 ? SlabPieces() : view(i - 1), view(i), view(i + 1),
+                      stack_.options.max_shift, {});
   if (gap.there != nullptr) {
-    if (links == gap.there->links) return;
+    if (ends == gap.there->ends) return;
     gap.made.emplace();
     gap.made->found = gap.there->found;
     tile_by_overlap(gap);
-  } else if (gap.before != nullptr && !links.empty()) {
+  } else if (gap.before != nullptr && !ends.is_empty()) {
     tile_by_overlap(gap);  // the pieces are the same, and in the same order
   }
-  link_ends(*gap.lower->region, *gap.upper->region, *gap.tiles, *gap.pieces, links);
-  gap.made->links = std::move(links);
+  link_ends(*gap.lower->region, *gap.upper->region, *gap.tiles, *gap.pieces, ends.links);
+  lean_ends(*gap.lower->region, *gap.upper->region, *gap.tiles, *gap.pieces, ends.leans);
+  gap.made->ends = std::move(ends);
 }
 
 Gaps::Shapes Gaps::shapes_around(std::size_t i) const {
@@ -145,14 +148,14 @@ void Gaps::bend(std::size_t i) {
     if (!options.smooth || !has_neighbours(i) || shapes == gap.there->shapes) return;
     gap.made.emplace();
     gap.made->found = gap.there->found;
-    gap.made->links = gap.there->links;
+    gap.made->ends = gap.there->ends;
   }
   const bool is_tiled = gap.tiles.has_value();
   auto linked =
       is_tiled ? std::make_shared<const TileSet>(std::move(*gap.tiles)) : gap.there->frozen->linked;
   auto pieces =
       is_tiled ? std::make_shared<const Pieces>(std::move(*gap.pieces)) : gap.there->frozen->pieces;
-  if (is_tiled && gap.made->links.empty()) pieces = gap.made->found;  // the same
+  if (is_tiled && gap.made->ends.is_empty()) pieces = gap.made->found;  // the same
   auto tiles = linked;
   const Region& lower = *gap.lower->region;
   const Region& upper = *gap.upper->region;
@@ -184,7 +187,7 @@ void Gaps::freeze(Gap& gap) {
     gap.made.emplace();
     gap.made->frozen = gap.there->frozen;
     gap.made->found = gap.there->found;
-    gap.made->links = gap.there->links;
+    gap.made->ends = gap.there->ends;
     gap.made->shapes = gap.there->shapes;
     gap.made->is_sewn_as_tiled = gap.there->is_sewn_as_tiled;
   }

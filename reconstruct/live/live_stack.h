@@ -43,8 +43,8 @@ using Faces = std::vector<Surface::FaceHandle>;
 /// A slab of the stack: what is in the surface, and what its neighbours look at.
 struct LiveSlab {
   std::shared_ptr<const FrozenSlab> frozen;
-  std::shared_ptr<const Pieces> found;  ///< before ends were linked
-  std::vector<EndLink> links;
+  std::shared_ptr<const Pieces> found;                      ///< before ends were linked
+  EndPlan ends;                                             ///< what was linked and leant
   std::array<std::shared_ptr<const SliceShape>, 4> shapes;  ///< what it was bent by
   Faces faces;
   Faces bottom;  ///< of the caps

@@ -142,8 +142,8 @@ std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const S
       const Point way = piece.registered_difference ? Point{} : piece.shift;
       shapes[i] = SmoothPassage(slices, {-way.x, -way.y});
     } else if (depths[i].depth > 0) {
-      shapes[i] =
-          SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place, depths[i].depth);
+      shapes[i] = SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place,
+                            depths[i].depth, piece.lean);
     }
   }
   return shapes;
@@ -194,7 +194,10 @@ class Smoothing {
   /// The way from p to the smooth surface, no further than `most`.
   [[nodiscard]] Vec3 way_to(const Shape& shape, const Vec3& p, double most) const {
     if (const auto* passage = std::get_if<SmoothPassage>(&shape)) return way_to(*passage, p, most);
-    if (const auto* end = std::get_if<SmoothEnd>(&shape)) return way_to(*end, p, most);
+    if (const auto* end = std::get_if<SmoothEnd>(&shape)) {
+      const Vec3 upright = end->upright(p);
+      return minus(end->leant(along(upright, 1, way_to(*end, upright, most))), p);
+    }
     return {};
   }
 

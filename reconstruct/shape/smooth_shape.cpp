@@ -134,8 +134,9 @@ Sample SmoothPassage::at(const Vec3& p) const {
   return sample;
 }
 
-SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle, double depth)
-    : slice_(slices[slice]), upwards_(slice == 1 ? 1 : -1), depth_(depth), trend_(0) {
+SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle, double depth,
+                     Point lean)
+    : slice_(slices[slice]), lean_(lean), upwards_(slice == 1 ? 1 : -1), depth_(depth), trend_(0) {
   const double height = slices[2]->z - slices[1]->z;
   const SliceShape* before = slices[slice == 1 ? 0 : 3];
   Bounds bounds = before == nullptr ? unknown : single;

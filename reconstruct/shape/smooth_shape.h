@@ -70,13 +70,25 @@ class SmoothPassage {
 /// is no slice before, half of it.
 class SmoothEnd {
  public:
-  /// On slice 1 or 2 of the surroundings; `middle` is where the part is deepest, `depth` deep.
-  SmoothEnd(const Surroundings& slices, std::size_t slice, cdt::Point middle, double depth);
+  /// On slice 1 or 2 of the surroundings; `middle` is where the part is deepest, `depth` deep. Its
+  /// axis goes sideways by `lean`, by height from that slice.
+  SmoothEnd(const Surroundings& slices, std::size_t slice, cdt::Point middle, double depth,
+            cdt::Point lean = {});
 
+  /// As if it did not lean.
   [[nodiscard]] Sample at(const Vec3& p) const;
+  /// Where a place would be if it did not lean.
+  [[nodiscard]] Vec3 upright(const Vec3& p) const { return sheared(p, -1); }
+  [[nodiscard]] Vec3 leant(const Vec3& p) const { return sheared(p, 1); }
 
  private:
+  [[nodiscard]] Vec3 sheared(const Vec3& p, double share) const {
+    const double way = share * upwards_ * (p[2] - slice_->z);
+    return {p[0] + way * lean_.x, p[1] + way * lean_.y, p[2]};
+  }
+
   const SliceShape* slice_;
+  cdt::Point lean_;
   double upwards_;    // 1 or -1
   double depth_;      // of the middle
   double trend_;      // growth of the squared radius a unit of height, less the ball's own
