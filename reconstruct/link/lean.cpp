@@ -79,10 +79,8 @@ class Ends {
       for (std::size_t i = 0; i < ends_.size(); ++i)
         if (is_changed[i]) draw_back(ends_[i]);
     }
-    for (const Leaning& end : ends_) {
+    for (const Leaning& end : ends_)
       pieces_.pieces[end.piece].lean = {end.share * end.velocity.x, end.share * end.velocity.y};
-      tiles_.is_plain = tiles_.is_plain && end.share == 0;
-    }
   }
 
  private:

@@ -2,6 +2,8 @@
 #include "reconstruct/live/gaps.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
 #include "reconstruct/link/lean.h"
@@ -70,7 +72,7 @@ bool Gaps::tile_in_part(Gap& gap) {
   const FrozenSlab& old = *before.frozen;
   const bool is_lower_same = old.lower == gap.lower->region;
   if (old.info.high != gap.upper->region->z || !before.is_sewn_as_tiled ||
-      !before.ends.is_empty() || old.has_bottom_cap || old.has_top_cap ||
+      !before.ends.links.empty() || old.has_bottom_cap || old.has_top_cap ||
       is_lower_same == (old.upper == gap.upper->region))
     return false;
   const Station& changed = is_lower_same ? *gap.upper : *gap.lower;
@@ -112,6 +114,26 @@ SlabPieces Gaps::view(std::size_t i) const {
   return {gaps_[i].slab().found.get(), gaps_[i].height()};
 }
 
+namespace {
+
+/// Whether there are ends to lean of which a slab keeps the tiles as they were.
+bool keeps_any(const Gap& gap, std::span<const EndLean> leans) {
+  std::vector<bool> is_kept(gap.pieces->pieces.size());
+  for (std::size_t t = 0; t < gap.kept.size(); ++t) is_kept[gap.pieces->of_tile[t]] = true;
+  std::array<std::vector<bool>, 2> is_kept_loop;  // by level
+  is_kept_loop[0].resize(gap.lower->region->loop_count());
+  is_kept_loop[1].resize(gap.upper->region->loop_count());
+  for (std::size_t p = 0; p < is_kept.size(); ++p)
+    for (const Level level : {Level::lower, Level::upper})
+      for (const std::uint32_t loop : gap.pieces->pieces[p].footprint(level).loops)
+        is_kept_loop[static_cast<std::size_t>(level)][loop] = is_kept[p];
+  return std::ranges::any_of(leans, [&](const EndLean& lean) {
+    return is_kept_loop[static_cast<std::size_t>(lean.level)][lean.loop];
+  });
+}
+
+}  // namespace
+
 void Gaps::link(std::size_t i) {
   Gap& gap = gaps_[i];
   if (!has_neighbours(i)) return;
@@ -124,7 +146,7 @@ void Gaps::link(std::size_t i) {
     gap.made.emplace();
     gap.made->found = gap.there->found;
     tile_by_overlap(gap);
-  } else if (gap.before != nullptr && !ends.is_empty()) {
+  } else if (gap.before != nullptr && (!ends.links.empty() || keeps_any(gap, ends.leans))) {
     tile_by_overlap(gap);  // the pieces are the same, and in the same order
   }
   link_ends(*gap.lower->region, *gap.upper->region, *gap.tiles, *gap.pieces, ends.links);

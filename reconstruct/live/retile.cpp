@@ -152,11 +152,11 @@ class Retiling {
   /// False if they cannot be tiled together.
   bool find_pieces_concerned() {
     const Pieces& pieces = change_.old_pieces;
-    is_concerned_.assign(pieces.pieces.size(), false);
+    for (const Piece& piece : pieces.pieces) is_concerned_.push_back(piece.lean != cdt::Point{});
     note_old_pieces();
-    if (box_.is_empty()) return true;
+    if (box_.is_empty() && has_none_concerned()) return true;
     note_footprints();
-    add_pieces(box_, box_);
+    if (!box_.is_empty()) add_pieces(box_, box_);
     if (!change_.old_tiles.reaches.empty())
       while (spread()) {
       }

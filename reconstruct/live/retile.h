@@ -39,7 +39,8 @@ struct Retiled {
 };
 
 /// Tiles anew only the pieces that have tiles in the box around all loops that came or went:
-/// outside of it nothing has changed, and pieces do not depend on one another. Law: the tiles are
+/// outside of it nothing has changed, and pieces do not depend on one another. Those that lean are
+/// tiled anew with them, to be upright again. Law: the tiles are
 /// those of tile_by_orders() without orders, in another order. None where that cannot be told from
 /// the pieces alone: where contours touch, tiles had to be tested or moved, or the pieces concerned
 /// are solids and cavities. Cost: that of the pieces, and O(n) simple steps for what stays.
