@@ -285,7 +285,8 @@ bool TrianglePairs::are_apart(const Node& a, const Node& b) const {
   const TurnedBox& turned_a = turned_[a.turned];
   const TurnedBox& turned_b = turned_[b.turned];
   return turned_a.is_apart(a.box, turned_b, b.box) || turned_b.is_apart(b.box, turned_a, a.box) ||
-         turned_a.passes(a.box, turned_b, b.box);
+         turned_a.passes(a.box, turned_b, b.box) || turned_a.is_apart(a.box, b.box) ||
+         turned_b.is_apart(b.box, a.box);
 }
 
 }  // namespace loft
