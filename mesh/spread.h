@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <utility>
 
 #include "mesh/box3.h"
 #include "mesh/predicates.h"
@@ -24,6 +25,16 @@ struct Extent {
   const double b = dot(axis, t[1]);
   const double c = dot(axis, t[2]);
   return {std::min(std::min(a, b), c), std::max(std::max(a, b), c)};
+}
+
+/// Whether most of some things have one middle along an axis: divided there, though a few be far
+/// off, they fall into two boxes that have nearly everything in common.
+/// `median`: that of the middles.
+template <class Things, class Middle>
+[[nodiscard]] bool are_most_alike(const Things& things, double median, Middle middle) {
+  const auto alike =
+      std::ranges::count_if(things, [&](const auto& thing) { return middle(thing) == median; });
+  return 2 * static_cast<std::size_t>(alike) > std::ranges::size(things);
 }
 
 /// Along which of three axes some things are spread out most: whatever is divided there falls into
@@ -47,24 +58,29 @@ class Spread {
     add({extent(t, axes_[0]), extent(t, axes_[1]), extent(t, axes_[2])});
   }
 
-  [[nodiscard]] const Vec3& longest() const {
-    return best([](std::size_t) { return 1.0; });
+  /// The axes, that of the largest spread first.
+  [[nodiscard]] std::array<Vec3, 3> by_spread() const {
+    return sorted([](std::size_t) { return 1.0; });
   }
-  [[nodiscard]] const Vec3& longest_in_widths() const {
+  [[nodiscard]] std::array<Vec3, 3> by_spread_in_widths() const {
     // In widths of the widest: what is less may be rounding.
     constexpr double rounding = 0x1p-20;
     const double least = rounding * *std::ranges::max_element(widths_);
-    return best([&](std::size_t axis) { return std::max(widths_[axis], least); });
+    return sorted([&](std::size_t axis) { return std::max(widths_[axis], least); });
   }
 
  private:
   template <class Unit>
-  [[nodiscard]] const Vec3& best(Unit unit) const {
+  [[nodiscard]] std::array<Vec3, 3> sorted(Unit unit) const {
     const Vec3 spreads = minus(middles_.high, middles_.low);
-    std::size_t best = 0;
-    for (std::size_t axis = 1; axis < 3; ++axis)
-      if (spreads[axis] * unit(best) > spreads[best] * unit(axis)) best = axis;
-    return axes_[best];
+    std::array<std::size_t, 3> order{0, 1, 2};
+    const auto is_before = [&](std::size_t a, std::size_t b) {
+      return spreads[a] * unit(b) > spreads[b] * unit(a);
+    };
+    if (is_before(order[1], order[0])) std::swap(order[0], order[1]);
+    if (is_before(order[2], order[0])) std::swap(order[0], order[2]);
+    if (is_before(order[2], order[1])) std::swap(order[1], order[2]);
+    return {axes_[order[0]], axes_[order[1]], axes_[order[2]]};
   }
 
   std::array<Vec3, 3> axes_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "mesh/spread.h"
@@ -181,21 +182,25 @@ class TrianglePairs::Builder {
 
   /// Puts the units of one half of the space first; how many they are.
   std::size_t halve(std::uint32_t node, std::span<Unit> units) const {
-    const Vec3 axis = best_axis(node, units);
-    for (Unit& unit : units) unit.middle = extent(unit, axis).twice_middle();
     const std::size_t half = units.size() / 2;
-    std::ranges::nth_element(units, units.begin() + static_cast<std::ptrdiff_t>(half), {},
-                             [](const Unit& unit) { return std::pair(unit.middle, unit.first); });
+    for (const Vec3& axis : best_axes(node, units)) {
+      for (Unit& unit : units) unit.middle = extent(unit, axis).twice_middle();
+      std::ranges::nth_element(units, units.begin() + static_cast<std::ptrdiff_t>(half), {},
+                               [](const Unit& unit) { return std::pair(unit.middle, unit.first); });
+      if (!are_most_alike(units, units[half].middle, std::mem_fn(&Unit::middle))) break;
+    }
     return half;
   }
 
-  [[nodiscard]] Vec3 best_axis(std::uint32_t node, std::span<const Unit> units) const {
+  /// The best first.
+  [[nodiscard]] std::array<Vec3, 3> best_axes(std::uint32_t node,
+                                              std::span<const Unit> units) const {
     const std::uint32_t turned = pairs_.nodes_[node].turned;
     const auto& axes = turned == none ? frame_of_axes : pairs_.turned_[turned].axes();
     Spread spread(axes);
     for (const Unit& unit : units)
       spread.add({extent(unit, axes[0]), extent(unit, axes[1]), extent(unit, axes[2])});
-    return turned == none ? spread.longest() : spread.longest_in_widths();
+    return turned == none ? spread.by_spread() : spread.by_spread_in_widths();
   }
 
   [[nodiscard]] Extent extent(const Unit& unit, const Vec3& axis) const {
@@ -280,7 +285,8 @@ bool TrianglePairs::are_apart(const Node& a, const Node& b) const {
   const TurnedBox& turned_a = turned_[a.turned];
   const TurnedBox& turned_b = turned_[b.turned];
   return turned_a.is_apart(a.box, turned_b, b.box) || turned_b.is_apart(b.box, turned_a, a.box) ||
-         turned_a.passes(a.box, turned_b, b.box);
+         turned_a.passes(a.box, turned_b, b.box) || turned_a.is_apart(a.box, b.box) ||
+         turned_b.is_apart(b.box, a.box);
 }
 
 }  // namespace loft

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <compare>
+#include <functional>
 #include <numeric>
 #include <utility>
 
@@ -114,21 +115,25 @@ class TriangleTree::Builder {
 
   /// Puts those of one half of the space first; how many they are.
   std::size_t halve(std::uint32_t node, std::span<std::uint32_t> some) {
-    const Vec3 axis = best_axis(node, some);
-    keys_.clear();
-    for (const std::uint32_t i : some)
-      keys_.push_back({extent(triangles_[i], axis).twice_middle(), numbers_[i], i});
     const std::size_t half = some.size() / 2;
-    std::ranges::nth_element(keys_, keys_.begin() + static_cast<std::ptrdiff_t>(half));
+    for (const Vec3& axis : best_axes(node, some)) {
+      keys_.clear();
+      for (const std::uint32_t i : some)
+        keys_.push_back({extent(triangles_[i], axis).twice_middle(), numbers_[i], i});
+      std::ranges::nth_element(keys_, keys_.begin() + static_cast<std::ptrdiff_t>(half));
+      if (!are_most_alike(keys_, keys_[half].middle, std::mem_fn(&Key::middle))) break;
+    }
     for (std::size_t i = 0; i < some.size(); ++i) some[i] = keys_[i].place;
     return half;
   }
 
-  [[nodiscard]] Vec3 best_axis(std::uint32_t node, std::span<const std::uint32_t> some) const {
+  /// The best first.
+  [[nodiscard]] std::array<Vec3, 3> best_axes(std::uint32_t node,
+                                              std::span<const std::uint32_t> some) const {
     const std::uint32_t turned = tree_.nodes_[node].turned;
     Spread spread(turned == none ? frame_of_axes : tree_.turned_[turned].axes());
     for (const std::uint32_t i : some) spread.add(triangles_[i]);
-    return turned == none ? spread.longest() : spread.longest_in_widths();
+    return turned == none ? spread.by_spread() : spread.by_spread_in_widths();
   }
 
   /// Where a triangle is along an axis.
