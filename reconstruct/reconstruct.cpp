@@ -25,6 +25,7 @@
 #include "reconstruct/shape/smooth.h"
 #include "reconstruct/tile/tiles.h"
 #include "reconstruct/usable.h"
+#include "reconstruct/world.h"
 
 namespace loft {
 
@@ -283,6 +284,30 @@ Reconstructed reconstruct(std::span<const Slice> slices, const ContoursByLabel& 
     return clean(height, slices, wanted, options, repairs, memory);
   };
   return reconstruct_from(slices, clean_height, options, progress);
+}
+
+namespace {
+
+Options options_for(const Stack& stack, const Options& options) {
+  Options result = options;
+  if (stack.fill) result.fill = *stack.fill;
+  if (!result.keyhole_width) result.keyhole_width = stack.keyhole_width;
+  return result;
+}
+
+}  // namespace
+
+Reconstructed reconstruct(const Stack& stack, const Options& options, const Progress& progress) {
+  Reconstructed made = reconstruct(stack.slices, options_for(stack, options), progress);
+  place_in_world(stack, made.surface, made.repairs);
+  return made;
+}
+
+Reconstructed reconstruct(const Stack& stack, const ContoursByLabel& contours,
+                          const Options& options, const Progress& progress) {
+  Reconstructed made = reconstruct(stack.slices, contours, options_for(stack, options), progress);
+  place_in_world(stack, made.surface, made.repairs);
+  return made;
 }
 
 std::vector<std::string> labels(std::span<const Slice> slices) {

@@ -9,7 +9,7 @@
 
 #include "app/exit_code.h"
 #include "io/planar/svg.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "reconstruct/options.h"
 
 namespace loft::app {
@@ -23,9 +23,9 @@ struct ReconstructCommand {
   std::vector<std::filesystem::path> outputs;
   Options options = {.height_tolerance = 1e-4};
   std::optional<std::filesystem::path> links;  ///< file of link orders
-  std::string unit = "mm";
+  std::string unit;                            ///< not given: that of the stack, or mm
   Memory memory = Memory::by_size;
-  io::Unlabelled unlabelled = io::Unlabelled::label_by_file;
+  io::ReadOptions read = {.unlabelled = io::Unlabelled::label_by_file};
   bool strict = false;  ///< a label that cannot be made is a failure
   bool json = false;
   bool slabs = false;  ///< in the report, too

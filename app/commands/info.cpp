@@ -12,7 +12,7 @@
 #include "app/report.h"
 #include "io/bytes/file.h"
 #include "io/meshes.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "mesh/measure.h"
 
 namespace loft::app {
@@ -179,12 +179,12 @@ ExitCode run(const InfoCommand& command) {
       std::cout << file.string() << '\n';
       print_summary(summary);
     };
-    if (io::is_slice_file(file)) {
-      show(summarise(io::read_slices(file)), print_stack);
+    if (io::is_stack_file(file)) {
+      show(summarise(io::read_stack(file).slices), print_stack);
     } else if (io::is_mesh_file(file)) {
       show(summarise(io::read_meshes(file)), print_meshes);
     } else {
-      throw io::UnknownFormat(file, io::slice_extensions() + ' ' + io::mesh_extensions());
+      throw io::UnknownFormat(file, io::stack_extensions() + ' ' + io::mesh_extensions());
     }
     return ExitCode::ok;
   });

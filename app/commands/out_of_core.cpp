@@ -8,6 +8,7 @@
 
 #include "app/commands/labels.h"
 #include "app/commands/place_of.h"
+#include "app/commands/take_over.h"
 #include "app/interrupt.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
@@ -16,6 +17,7 @@
 #include "io/stack_file.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/reconstruct.h"
+#include "reconstruct/world.h"
 
 namespace loft::app {
 
@@ -72,6 +74,26 @@ class Overview {
   std::vector<Defect> unusable_;
 };
 
+/// Passes a surface on to where it is in the world.
+class WorldSink : public SurfaceSink {
+ public:
+  WorldSink(const Stack& stack, SurfaceSink& sink) : stack_(stack), sink_(sink) {}
+
+  void add_vertices(std::span<const SurfaceVertex> vertices) override {
+    moved_.assign(vertices.begin(), vertices.end());
+    for (SurfaceVertex& vertex : moved_)
+      vertex.place = world_place(stack_, vertex.place, vertex.origin);
+    sink_.add_vertices(moved_);
+  }
+  void add_faces(std::span<const SurfaceFace> faces) override { sink_.add_faces(faces); }
+  void end(const VertexNumbers& numbers) override { sink_.end(numbers); }
+
+ private:
+  const Stack& stack_;
+  SurfaceSink& sink_;
+  std::vector<SurfaceVertex> moved_;
+};
+
 }  // namespace
 
 bool is_out_of_core(const ReconstructCommand& command) {
@@ -87,26 +109,25 @@ bool is_out_of_core(const ReconstructCommand& command) {
          input_size(command) > most_in_memory;
 }
 
-void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report) {
+void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
   Overview overview;
-  const io::StackFile stack(
-      command.inputs, command.options.threads,
-      [&](const Slice& slice, double share) {
-        overview.add(slice);
-        terminal.show_progress("read", share_of_reading * share);
-        if (is_interrupted()) throw Cancelled();
-      },
-      command.unlabelled);
+  const io::StackFile stack(command.inputs, command.read, [&](const Slice& slice, double share) {
+    overview.add(slice);
+    terminal.show_progress("read", share_of_reading * share);
+    if (is_interrupted()) throw Cancelled();
+  });
   if (!overview.unusable().empty())
     throw InputError(
         with_place(InputError(overview.unusable()).what(), place_of(command, Options())));
+  take_over(stack.about(), command, terminal);
   report.input = overview.total();
   report.seconds["read"] = stopwatch.lap();
 
   const std::vector<std::string> names = overview.labels();
   const bool is_labelled = names.size() > 1 || !names[0].empty();
   io::PlyPieces output(command.outputs[0], names);
+  WorldSink in_world(stack.about(), output);
   LabelProblems problems(command);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;
@@ -119,7 +140,7 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
       return !is_interrupted();
     };
     try {
-      OutOfCoreReport made = reconstruct_out_of_core(stack.source(), options, output, follow);
+      OutOfCoreReport made = reconstruct_out_of_core(stack.source(), options, in_world, follow);
       PartReport& part = report.parts.emplace_back();
       part.label = names[i];
       part.input = overview.size_of(names[i]);

@@ -13,13 +13,14 @@
 #include "app/commands/out_of_core.h"
 #include "app/commands/place_of.h"
 #include "app/commands/reconstruct_report.h"
+#include "app/commands/take_over.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
 #include "app/unit.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "io/stacks/links_json.h"
 #include "io/surfaces.h"
 #include "mesh/measure.h"
@@ -89,12 +90,12 @@ void check_outputs(const ReconstructCommand& command) {
 
 struct Result {
   /// Made in its place, and stays there: an OpenMesh mesh cannot be moved, only copied.
-  Result(const std::vector<Slice>& stack, const ContoursByLabel& contours, const Options& options,
+  Result(const Stack& stack, const ContoursByLabel& contours, const Options& options,
          Follower& follower)
       : made(options.label ? reconstruct(stack, contours, options, std::ref(follower))
                            : reconstruct(stack, options, std::ref(follower))) {
     report.label = options.label.value_or("");
-    report.input = size_of(stack, contours.of(report.label));
+    report.input = size_of(stack.slices, contours.of(report.label));
     report.seconds = follower.finish();
     report.vertices_of_kind = count_kinds(made.surface);
     report.repairs = std::move(made.repairs);
@@ -106,10 +107,10 @@ struct Result {
 };
 
 /// All labels but those that are skipped, or one InputError for all that cannot be reconstructed.
-std::list<Result> reconstruct_all(const ReconstructCommand& command,
-                                  const std::vector<Slice>& stack, const Options& all_options,
-                                  Terminal& terminal, std::vector<SkippedLabel>& skipped) {
-  const ContoursByLabel contours(stack);
+std::list<Result> reconstruct_all(const ReconstructCommand& command, const Stack& stack,
+                                  const Options& all_options, Terminal& terminal,
+                                  std::vector<SkippedLabel>& skipped) {
+  const ContoursByLabel contours(stack.slices);
   std::vector<std::string> names = contours.labels();
   if (names.empty()) names.emplace_back();
   for (const path& output : command.outputs) check_labels_fit(names.size(), output);
@@ -166,9 +167,14 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   return options;
 }
 
-void write_all(const ReconstructCommand& command, const std::list<Result>& results) {
+void write_all(const ReconstructCommand& command, const Stack& stack,
+               const std::list<Result>& results) {
   std::vector<io::Part> parts;
-  for (const Result& result : results) parts.push_back({result.report.label, &result.made.surface});
+  for (const Result& result : results) {
+    const StackLabel* const label = stack.find_label(result.report.label);
+    parts.push_back({result.report.label, &result.made.surface,
+                     label != nullptr ? label->colour : std::nullopt});
+  }
   for (const path& output : command.outputs) {
     if (is_interrupted()) throw Cancelled();
     io::write(output, parts, write_options(command));
@@ -185,20 +191,20 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
   for (const path& output : command.outputs) terminal.say("wrote " + output.string());
 }
 
-void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report& report) {
+void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
-  const std::vector<Slice> stack =
-      io::read_slices(command.inputs, command.options.threads, command.unlabelled);
-  report.input = size_of(stack);
-  report.input.slices = stack.size();
+  const Stack stack = io::read_stack(command.inputs, command.read);
+  take_over(stack, command, terminal);
+  report.input = size_of(stack.slices);
+  report.input.slices = stack.slices.size();
   report.seconds["read"] = stopwatch.lap();
 
   Options options = command.options;
-  if (command.links) options.links = io::read_links_json(*command.links, stack);
+  if (command.links) options.links = io::read_links_json(*command.links, stack.slices);
   options.reports_slabs = command.json && command.slabs;
   std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
   stopwatch.lap();
-  write_all(command, results);
+  write_all(command, stack, results);
   report.seconds["write"] = stopwatch.lap();
   for (Result& result : results) {
     for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;
@@ -208,7 +214,9 @@ void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report
 
 }  // namespace
 
-ExitCode run(const ReconstructCommand& command) {
+ExitCode run(const ReconstructCommand& given) {
+  ReconstructCommand command = given;
+  command.read.threads = command.options.threads;
   Terminal terminal(command.quiet);
   Report report;
   Stopwatch total;

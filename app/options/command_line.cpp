@@ -18,7 +18,7 @@
 #include "app/unit.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "io/surfaces.h"
 #include "io/triangulations.h"
 #include "io/version.h"
@@ -42,7 +42,7 @@ std::string footer() {
          "each\n"
          "label is reconstructed on its own. '-' reads standard input.\n"
          "  stacks " +
-         loft::io::slice_extensions() + "; surfaces out " + loft::io::surface_extensions() +
+         loft::io::stack_extensions() + "; surfaces out " + loft::io::surface_extensions() +
          "\n"
          "Polylines: GeoJSON, or text with a line 'n closed' (0 or 1) for each and n lines 'x y'.\n"
          "  polylines " +
@@ -79,13 +79,15 @@ void add_triangle_options(CLI::App& sub, loft::Options& options) {
 }
 
 /// What is inside, and how the ends are closed.
-void add_slice_options(CLI::App& sub, loft::Options& options) {
+void add_slice_options(CLI::App& sub, loft::Options& options,
+                       std::optional<loft::Fill>* given_fill = nullptr) {
   sub.add_option_function<std::string>(
          "--fill",
-         [&options](const std::string& fill) {
+         [&options, given_fill](const std::string& fill) {
            options.fill = fill == "nonzero"   ? loft::Fill::nonzero
                           : fill == "evenodd" ? loft::Fill::even_odd
                                               : loft::Fill::keyhole_aware;
+           if (given_fill != nullptr) *given_fill = options.fill;
          },
          "What is inside: nested contours are holes (evenodd, default), overlapping ones make "
          "their union (nonzero), or as evenodd with holes that a channel joins to their outline "
@@ -147,7 +149,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
-  add_slice_options(*sub, command.options);
+  add_slice_options(*sub, command.options, &command.read.fill);
   sub->add_option("--threads", command.options.threads,
                   "Threads that work at the same time; 0 (default): as many as the machine has")
       ->type_name("N")
@@ -171,7 +173,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->type_name("FILE");
   add_triangle_options(*sub, command.options);
   sub->add_option("--unit", command.unit,
-                  "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
+                  "Unit of the input, for glTF's metres (default: what the stack says, or mm): " + std::string(unit_names))
       ->type_name("UNIT")
       ->check(CLI::Validator(complain_of_unit, ""));
   sub->add_option("--height-tolerance", command.options.height_tolerance,
@@ -180,7 +182,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.1));
   sub->add_flag_callback(
-      "--merge", [&command] { command.unlabelled = io::Unlabelled::keep; },
+      "--merge", [&command] { command.read.unlabelled = io::Unlabelled::keep; },
       "Several files are one stack; otherwise contours without a label take the name of "
       "their file");
   sub->add_flag("--strict", command.strict,
