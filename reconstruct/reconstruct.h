@@ -21,6 +21,9 @@ struct Reconstructed {
   Surface surface;
   std::vector<Defect> repairs;    ///< in the order of heights; none is fatal
   std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
+  /// The volume as planning systems and counts of voxels have it: of each slice its area times its
+  /// thickness, half the gap to either neighbour; see slab_volume().
+  double slab_volume = 0;
 };
 
 /// Thrown by reconstruct() when its Progress asked for it.

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "app/commands/label_choice.h"
+#include "app/commands/label_files.h"
 #include "app/commands/labels.h"
 #include "app/commands/place_of.h"
 #include "app/commands/take_over.h"
@@ -30,7 +32,8 @@ constexpr double share_of_reading = 0.1;
 constexpr double share_of_surfaces = 0.85;
 
 bool is_one_ply(const ReconstructCommand& command) {
-  return command.outputs.size() == 1 && io::extension(command.outputs[0]) == ".ply";
+  return command.outputs.size() == 1 && io::extension(command.outputs[0]) == ".ply" &&
+         !is_per_label(command.outputs[0]);
 }
 
 std::uintmax_t input_size(const ReconstructCommand& command) {
@@ -124,7 +127,8 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
   report.input = overview.total();
   report.seconds["read"] = stopwatch.lap();
 
-  const std::vector<std::string> names = overview.labels();
+  const std::vector<std::string> names =
+      LabelChoice(command.only, command.except).chosen(overview.labels());
   const bool is_labelled = names.size() > 1 || !names[0].empty();
   io::PlyPieces output(command.outputs[0], names);
   WorldSink in_world(stack.about(), output);
@@ -133,6 +137,8 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
     Options options = command.options;
     options.reports_slabs = command.json && command.slabs;
     if (is_labelled) options.label = names[i];
+    const StackLabel* const label = stack.about().find_label(names[i]);
+    options.gap = label != nullptr && label->gap ? label->gap : stack.about().gap;
     const auto follow = [&](Stage stage, double fraction) {
       const double done = (static_cast<double>(i) + fraction) / static_cast<double>(names.size());
       terminal.show_progress(name(stage) + (' ' + names[i]),
@@ -145,6 +151,7 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
       part.label = names[i];
       part.input = overview.size_of(names[i]);
       part.measures = made.measures;
+      part.slab_volume = made.slab_volume;
       part.vertices_of_kind = made.vertices_of_kind;
       part.repairs = std::move(made.repairs);
       part.slabs = std::move(made.slabs);

@@ -9,11 +9,14 @@
 #include <utility>
 
 #include "app/commands/commands.h"
+#include "app/commands/label_choice.h"
+#include "app/commands/label_files.h"
 #include "app/commands/labels.h"
 #include "app/commands/out_of_core.h"
 #include "app/commands/place_of.h"
 #include "app/commands/reconstruct_report.h"
 #include "app/commands/take_over.h"
+#include "app/commands/volume_table.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
@@ -85,7 +88,21 @@ class Follower {
 void check_outputs(const ReconstructCommand& command) {
   forbid_overwriting(command.inputs, command.outputs);
   if (command.links) forbid_overwriting(std::array{*command.links}, command.outputs);
-  for (const path& output : command.outputs) io::check_writable(output);
+  for (const path& output : command.outputs)
+    if (!is_per_label(output)) io::check_writable(output);
+}
+
+/// The same, once the labels are known.
+void check_outputs(const ReconstructCommand& command, const std::vector<std::string>& labels) {
+  for (const path& output : command.outputs) {
+    if (!is_per_label(output)) {
+      check_labels_fit(labels.size(), output);
+      continue;
+    }
+    const std::vector<path> files = label_files(output, labels);
+    forbid_overwriting(command.inputs, files);
+    for (const path& file : files) io::check_writable(file);
+  }
 }
 
 struct Result {
@@ -99,6 +116,7 @@ struct Result {
     report.seconds = follower.finish();
     report.vertices_of_kind = count_kinds(made.surface);
     report.repairs = std::move(made.repairs);
+    report.slab_volume = made.slab_volume;
     report.slabs = std::move(made.slabs);
   }
 
@@ -111,11 +129,13 @@ std::list<Result> reconstruct_all(const ReconstructCommand& command, const Stack
                                   const Options& all_options, Terminal& terminal,
                                   std::vector<SkippedLabel>& skipped) {
   const ContoursByLabel contours(stack.slices);
-  std::vector<std::string> names = contours.labels();
+  std::vector<std::string> names =
+      LabelChoice(command.only, command.except).chosen(contours.labels());
   if (names.empty()) names.emplace_back();
-  for (const path& output : command.outputs) check_labels_fit(names.size(), output);
+  check_outputs(command, names);
   const bool is_labelled = names.size() > 1 || !names[0].empty();
-  const bool is_measured = command.json || !command.quiet;  // else nobody sees it
+  const bool is_measured =
+      command.json || !command.quiet || command.volumes;  // else nobody sees it
   const double share = 1.0 / static_cast<double>(names.size());
   std::list<Result> results;
   LabelProblems problems(command);
@@ -175,16 +195,28 @@ void write_all(const ReconstructCommand& command, const Stack& stack,
     parts.push_back({result.report.label, &result.made.surface,
                      label != nullptr ? label->colour : std::nullopt});
   }
+  std::vector<std::string> labels;
+  for (const io::Part& part : parts) labels.push_back(part.label);
   for (const path& output : command.outputs) {
-    if (is_interrupted()) throw Cancelled();
-    io::write(output, parts, write_options(command));
+    if (!is_per_label(output)) {
+      if (is_interrupted()) throw Cancelled();
+      io::write(output, parts, write_options(command));
+      continue;
+    }
+    const std::vector<path> files = label_files(output, labels);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (is_interrupted()) throw Cancelled();
+      io::write(files[i], {&parts[i], 1}, write_options(command));
+    }
   }
 }
 
 void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
+  if (report.parts.size() > 1)
+    for (const std::string& line : volume_table(report.parts, command.unit)) terminal.say(line);
   for (const PartReport& part : report.parts) {
     const std::string prefix = part.label.empty() ? "" : part.label + ": ";
-    terminal.say(prefix + describe(part.measures, command.unit));
+    if (report.parts.size() == 1) terminal.say(prefix + describe(part.measures, command.unit));
     if (!part.repairs.empty())
       terminal.say(prefix + describe(summarize(part.repairs), command.unit));
   }
@@ -233,6 +265,7 @@ ExitCode run(const ReconstructCommand& given) {
   for (const SkippedLabel& label : report.skipped)
     terminal.warn(label.message + "; nothing was made of it");
   for (const PartReport& part : report.parts) warn(command, part, terminal);
+  if (command.volumes) write_volumes_csv(*command.volumes, report.parts, command.unit);
   say_summary(command, report, terminal);
   if (command.json) std::cout << to_json(report, command) << '\n';
   return command.strict && !report.skipped.empty() ? ExitCode::bad_input : ExitCode::ok;
