@@ -169,20 +169,6 @@ InputError too_few_slices(const Region* only) {
   return InputError(std::vector{defect});
 }
 
-double area(const Region& region) {
-  double twice = 0;
-  for (std::size_t i = 0; i < region.loop_count(); ++i) {
-    const auto loop = region.loop(i);
-    const cdt::Point origin = region.points[loop[0]];
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const cdt::Point a = region.points[loop[k]];
-      const cdt::Point b = region.points[loop[(k + 1) % loop.size()]];
-      twice += (a.x - origin.x) * (b.y - origin.y) - (a.y - origin.y) * (b.x - origin.x);
-    }
-  }
-  return twice / 2;
-}
-
 void SlabVolume::add(const Region& region) {
   const double area = loft::area(region);
   if (!is_first_) {

@@ -48,9 +48,6 @@ struct Height {
 /// that has, or null.
 [[nodiscard]] InputError too_few_slices(const Region* only);
 
-/// The area that a region encloses.
-[[nodiscard]] double area(const Region& region);
-
 /// Of each slice its area times its thickness, half the gap to either neighbour: the ends are
 /// continued by half their one gap, a slice that is alone by half of `alone` either way.
 class SlabVolume {

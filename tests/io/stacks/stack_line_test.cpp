@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "io/bytes/file.h"
 #include "io/bytes/natural_order.h"
 #include "io/stack.h"
 #include "io/stack_writer.h"
