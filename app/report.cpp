@@ -56,6 +56,8 @@ const char* name(Cap cap) {
       return "flat";
     case Cap::dome:
       return "dome";
+    case Cap::extend:
+      return "extend";
     case Cap::open:
       break;
   }

@@ -19,7 +19,7 @@ endforeach()
 file(CONFIGURE OUTPUT docs/mainpage.md @ONLY CONTENT [[
 # Loft
 
-@PROJECT_DESCRIPTION@. Begin with loft::reconstruct(), loft::Reconstruction, loft::io::read_slices()
+@PROJECT_DESCRIPTION@. Begin with loft::reconstruct(), loft::Reconstruction, loft::io::read_stack()
 and loft::io::write(); the triangulation below them all is loft::cdt::Triangulation.
 ]])
 set(DOXYGEN_OUTPUT_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR}/docs)

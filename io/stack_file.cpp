@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "io/stack_file.h"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 #include <system_error>
 
 #include "io/bytes/file.h"
 #include "io/bytes/text.h"
+#include "io/stacks/join.h"
 #include "io/stacks/slice_line.h"
+#include "io/stacks/slices_json.h"
+#include "io/stacks/stack_format.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -21,7 +25,7 @@ std::ifstream open(const std::filesystem::path& path) {
   if (std::filesystem::is_directory(path)) throw FileError(Access::read, path, "it is a folder");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(Access::read, path, last_cause());
-  if (!is_slice_file(path)) throw UnknownFormat(path, slice_extensions());
+  if (!is_stack_file(path)) throw UnknownFormat(path, stack_extensions());
   return file;
 }
 
@@ -31,24 +35,55 @@ std::uint64_t size_of(const std::filesystem::path& path) {
   return ignored ? 0 : size;
 }
 
+bool is_read_by_line(const std::filesystem::path& path) {
+  return path == "-" || find_stack_format(path) == nullptr ||
+         find_stack_format(path)->read == read_ndjson;
+}
+
+/// A slice without its points; where these are in the world stays.
+Slice only_places(Slice slice) {
+  if (std::ranges::all_of(slice.contours, [](const Contour& c) { return c.places.empty(); }))
+    slice.contours = {};
+  for (Contour& contour : slice.contours) {
+    contour.points = {};
+    contour.label = {};
+    contour.source = {};
+  }
+  return slice;
+}
+
 }  // namespace
 
-StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned threads,
-                     const Visit& visit, Unlabelled unlabelled)
-    : paths_(paths.begin(), paths.end()), labels_(labels_of(paths, unlabelled)) {
+StackFile::StackFile(std::span<const std::filesystem::path> paths, const ReadOptions& options,
+                     const Visit& visit)
+    : paths_(paths.begin(), paths.end()), labels_(labels_of(paths, options.unlabelled)) {
+  if (std::ranges::all_of(paths_, is_read_by_line)) {
+    read_lines(options.threads, visit);
+    if (options.fill) about_.fill = options.fill;
+  } else {
+    about_ = read_stack(paths, options);
+    keep_in_memory(visit);
+  }
+}
+
+void StackFile::read_lines(unsigned threads, const Visit& visit) {
   std::uint64_t total = 0;
   for (const auto& path : paths_) total += size_of(path);
   std::uint64_t before = 0;
   std::string problems;
+  std::vector<Slice> slices;  // only where their points are in the world
   for (std::size_t f = 0; f < paths_.size(); ++f) {
     try {
       std::ifstream file = open(paths_[f]);
-      for_each_slice(file, paths_[f].string(), threads, [&](Slice&& slice, LinePlace place) {
-        entries_.push_back({f, place, slice.z, point_count(slice)});
-        const std::uint64_t done = before + place.offset + place.length;
-        label_unlabelled(slice, labels_[f]);
-        visit(slice, total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total));
-      });
+      Stack about =
+          for_each_slice(file, paths_[f].string(), threads, [&](Slice&& slice, LinePlace place) {
+            entries_.push_back({f, place, slice.z, point_count(slice)});
+            const std::uint64_t done = before + place.offset + place.length;
+            label_unlabelled(slice, labels_[f]);
+            visit(slice, total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total));
+            slices.push_back(only_places(std::move(slice)));
+          });
+      join(about_, std::move(about), paths_[f].string(), f == 0);
     } catch (const InputError& error) {
       if (!problems.empty()) problems += '\n';
       problems += error.what();
@@ -56,6 +91,17 @@ StackFile::StackFile(std::span<const std::filesystem::path> paths, unsigned thre
     before += size_of(paths_[f]);
   }
   if (!problems.empty()) throw InputError(problems);
+  about_.slices = std::move(slices);
+}
+
+void StackFile::keep_in_memory(const Visit& visit) {
+  in_memory_ = about_.slices;
+  for (std::size_t i = 0; i < in_memory_.size(); ++i) {
+    const Slice& slice = in_memory_[i];
+    entries_.push_back({0, {}, slice.z, point_count(slice)});
+    visit(slice, static_cast<double>(i + 1) / static_cast<double>(in_memory_.size()));
+    about_.slices[i] = only_places(std::move(about_.slices[i]));
+  }
 }
 
 SliceSource StackFile::source() const {
@@ -66,6 +112,7 @@ SliceSource StackFile::source() const {
 }
 
 Slice StackFile::read(std::uint32_t i) const {
+  if (!in_memory_.empty()) return in_memory_[i];
   const Entry& entry = entries_[i];
   std::ifstream file = open(paths_[entry.file]);
   std::string text(entry.place.length, '\0');

@@ -53,6 +53,8 @@ const char* name(DefectKind kind) {
       return "merged_slices";
     case DefectKind::unlinked_slices:
       return "unlinked_slices";
+    case DefectKind::off_plane:
+      return "off_plane";
     case DefectKind::refused_link:
       return "refused_link";
   }

@@ -29,6 +29,7 @@ enum class DefectKind {
   empty_slice,       ///< a slice without contours between others: the shape ends and starts again
   merged_slices,     ///< two slices of the same height: merged into one
   unlinked_slices,   ///< no valid surface was found between two slices: both end half way
+  off_plane,         ///< points of tilted slices are too far off their planes: moved there
   refused_link,      ///< an order to link or not to link contours could not be met
 };
 

@@ -40,6 +40,10 @@ enum class Cap {
   flat,  ///< the region of the slice itself
   dome,  ///< a rounded end, at most 0.7 of the distance to the next slice high
   open,  ///< nothing: the surface ends in the contours
+  /// The region of the slice itself, half a gap further out: slices are slabs, as planning systems
+  /// and counts of voxels take them. Empty slices at the ends of a part of the stack count for
+  /// nothing. Not for Reconstruction.
+  extend,
 };
 
 /// Which parts of neighbouring slices the surface joins.
@@ -75,6 +79,8 @@ struct Options {
   /// height. Needs the whole stack: not for Reconstruction.
   double height_tolerance = 0;
   Cap cap = Cap::flat;
+  /// How thick a slice is for Cap::extend, where there is only one.
+  std::optional<double> gap = {};
   /// Bends the surface between the slices as their neighbours suggest (reconstruct/shape/smooth.h);
   /// otherwise it is straight from slice to slice.
   bool smooth = false;

@@ -38,10 +38,12 @@ constexpr std::size_t group_size = std::size_t{1} << 17U;
 /// nearest; those that are no longer needed are forgotten.
 class Regions {
  public:
-  explicit Regions(Cap cap) : cap_(cap) {}
+  Regions(Cap cap, std::optional<double> gap) : cap_(cap), gap_(gap), volume_(gap.value_or(0)) {}
 
   void add(Region region) {
+    count_volume(region);
     if (region.is_empty()) {
+      if (!has_filled_ && cap_ == Cap::extend) return;
       if (!has_filled_) empty_.clear();  // only the nearest one counts
       empty_.push_back(std::move(region));
       return;
@@ -58,6 +60,7 @@ class Regions {
   /// No more come.
   void end() {
     if (!has_loops_) throw too_few_slices(nullptr);
+    if (cap_ == Cap::extend) return extend_end();
     if (!empty_.empty()) append(std::move(empty_.front()));
     if (bound() < 2) throw too_few_slices(&regions_.front());
     if (cap_ == Cap::dome && regions_.back().has_loops())
@@ -72,18 +75,46 @@ class Regions {
     for (; first_ < i; ++first_) regions_.pop_front();
   }
 
+  /// Of all that came, without the first empty ones.
+  [[nodiscard]] double slab_volume() const { return volume_.volume(); }
   /// Warnings of those that are empty.
   [[nodiscard]] const std::vector<Defect>& repairs() const { return repairs_; }
 
  private:
   void append(Region region) {
     regions_.push_back(std::move(region));
-    if (cap_ != Cap::dome || bound() != 2 || has_low_end_) return;
+    if ((cap_ != Cap::dome && cap_ != Cap::extend) || bound() != 2 || has_low_end_) return;
     has_low_end_ = true;
-    if (regions_[0].has_loops()) regions_.push_front(beyond(regions_[0], regions_[1]));
+    if (!regions_[0].has_loops()) return;
+    regions_.push_front(cap_ == Cap::dome
+                            ? beyond(regions_[0], regions_[1])
+                            : extended(regions_[0], (regions_[0].z - regions_[1].z) / 2));
+  }
+
+  void count_volume(const Region& region) {
+    if (!has_filled_ && region.is_empty()) {
+      lowest_ = region;
+      return;
+    }
+    if (const auto lowest = std::exchange(lowest_, {})) volume_.add(*lowest);
+    volume_.add(region);
+  }
+
+  void extend_end() {
+    const bool is_alone = bound() < 2;
+    if (is_alone && !gap_) throw too_few_slices(&regions_.front());
+    const Region& last = regions_.back();
+    const double gap = is_alone ? *gap_ : last.z - regions_[regions_.size() - 2].z;
+    if (!last.has_loops()) return;
+    Region above = extended(last, gap / 2);
+    if (is_alone) regions_.push_front(extended(last, -gap / 2));
+    regions_.push_back(std::move(above));
   }
 
   Cap cap_;
+  std::optional<double> gap_;  // of a slice that is alone
+  SlabVolume volume_;
+  std::optional<Region> lowest_;  // the nearest empty one below the first filled one
   bool has_low_end_ = false;
   std::deque<Region> regions_;
   std::size_t first_ = 0;
@@ -101,7 +132,7 @@ class Work {
         options_(options),
         sink_(sink),
         one_label_(options.label),
-        regions_(options.cap),
+        regions_(options.cap, options.gap),
         linking_(options),
         memories_(thread_count(options.threads)),
         workspaces_(thread_count(options.threads)) {}
@@ -174,6 +205,10 @@ class Work {
     return cleaned;
   }
 
+  [[nodiscard]] bool has_flat_caps() const {
+    return options_.cap == Cap::flat || options_.cap == Cap::extend;
+  }
+
   /// Takes every slab as far as the regions that are known allow.
   void make_slabs(bool is_end) {
     add_shapes();
@@ -198,7 +233,7 @@ class Work {
     linking_.drop_below(slab_bound_ == 0 ? 0 : slab_bound_ - 1);
 
     std::vector<Layer> layers;
-    if (first == 0 && options_.cap == Cap::flat) layers.push_back(bottom_cap(sewn_region(0)));
+    if (first == 0 && has_flat_caps()) layers.push_back(bottom_cap(sewn_region(0)));
     for (std::size_t i = 0; i < slabs.size(); ++i) {
       const Region& lower = sewn_region(first + i);
       const Region& upper = sewn_region(first + i + 1);
@@ -266,7 +301,7 @@ class Work {
   }
 
   void finish() {
-    if (options_.cap == Cap::flat) {
+    if (has_flat_caps()) {
       const std::size_t last = slab_bound_ - 1;
       std::vector<Layer> cap;
       cap.push_back(
@@ -293,7 +328,7 @@ class Work {
     }
     sewing_.drop_below(passed_bound_);
     // Layers begin with the cap; a slab looks at the slice before its own.
-    const std::size_t cap = options_.cap == Cap::flat ? 1 : 0;
+    const std::size_t cap = has_flat_caps() ? 1 : 0;
     const std::size_t sewn = passed_bound_ - std::min<std::size_t>(cap, passed_bound_);
     const std::size_t needed = std::min(sewn, slab_bound_ - std::min<std::size_t>(1, slab_bound_));
     regions_.drop_below(needed);
@@ -364,8 +399,8 @@ class Work {
     std::ranges::move(unused_, std::back_inserter(repairs));
     std::ranges::move(unlinked_, std::back_inserter(repairs));
     std::ranges::stable_sort(repairs, {}, &Defect::z);
-    return {std::move(repairs), std::move(reports_), survey_.measures(),
-            survey_.vertices_of_kind()};
+    return {std::move(repairs), std::move(reports_), survey_.measures(), survey_.vertices_of_kind(),
+            regions_.slab_volume()};
   }
 
   /// A face that a midpoint cut off: it comes behind all others.

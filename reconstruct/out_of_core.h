@@ -37,6 +37,7 @@ struct OutOfCoreReport {
   std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
   Measures measures;
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
+  double slab_volume = 0;                         ///< as that of Reconstructed
 };
 
 /// Makes the surface of a stack larger than memory slab by slab, from the lowest slice upwards, and

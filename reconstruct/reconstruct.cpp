@@ -25,6 +25,7 @@
 #include "reconstruct/shape/smooth.h"
 #include "reconstruct/tile/tiles.h"
 #include "reconstruct/usable.h"
+#include "reconstruct/world.h"
 
 namespace loft {
 
@@ -61,6 +62,18 @@ void add_beyond_ends(std::vector<Region>& regions) {
   if (top.has_loops()) high = beyond(top, regions[regions.size() - 2]);
   if (low) regions.insert(regions.begin(), std::move(*low));
   if (high) regions.push_back(std::move(*high));
+}
+
+/// Continues the ends half a gap outwards; empty slices beyond them do not count.
+void extend_ends(std::vector<Region>& regions, std::optional<double> gap) {
+  if (!regions.empty() && regions.back().is_empty()) regions.pop_back();
+  if (!regions.empty() && regions.front().is_empty()) regions.erase(regions.begin());
+  if (regions.empty() || (regions.size() == 1 && !gap)) return;
+  const std::size_t last = regions.size() - 1;
+  const double low = last == 0 ? *gap : regions[1].z - regions[0].z;
+  const double high = last == 0 ? *gap : regions[last].z - regions[last - 1].z;
+  if (regions[last].has_loops()) regions.push_back(extended(regions[last], high / 2));
+  if (regions[0].has_loops()) regions.insert(regions.begin(), extended(regions[0], -low / 2));
 }
 
 /// Names the slabs that no valid tiles were found for.
@@ -229,6 +242,12 @@ Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean
   const auto heights = find_heights(z, options.height_tolerance, repairs);
   auto regions =
       trim(clean_all(heights, options.threads, clean_height, repairs, progress), repairs);
+  SlabVolume slab_volume(options.gap.value_or(0));
+  for (const Region& region : regions) slab_volume.add(region);
+  if (options.cap == Cap::extend) {
+    extend_ends(regions, options.gap);
+    options.cap = Cap::flat;
+  }
   check_enough(regions);
   if (options.cap == Cap::dome) add_beyond_ends(regions);
   std::vector<Refusal> refusals;
@@ -245,7 +264,7 @@ Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean
   Reporter sewing(progress, Stage::sew, 1);
   // Made in its place: an OpenMesh mesh cannot be moved, only copied.
   Reconstructed result{sew(regions, std::move(slabs.tiles), options.cap, options.threads),
-                       std::move(repairs), std::move(reports)};
+                       std::move(repairs), std::move(reports), slab_volume.volume()};
   sewing.add_step();
   if (options.simplify) {
     Reporter simplifying(progress, Stage::simplify, 1);
@@ -283,6 +302,34 @@ Reconstructed reconstruct(std::span<const Slice> slices, const ContoursByLabel& 
     return clean(height, slices, wanted, options, repairs, memory);
   };
   return reconstruct_from(slices, clean_height, options, progress);
+}
+
+namespace {
+
+Options options_for(const Stack& stack, const Options& options) {
+  Options result = options;
+  if (stack.fill) result.fill = *stack.fill;
+  if (!result.keyhole_width) result.keyhole_width = stack.keyhole_width;
+  if (!result.gap) {
+    const StackLabel* const label = options.label ? stack.find_label(*options.label) : nullptr;
+    result.gap = label != nullptr && label->gap ? label->gap : stack.gap;
+  }
+  return result;
+}
+
+}  // namespace
+
+Reconstructed reconstruct(const Stack& stack, const Options& options, const Progress& progress) {
+  Reconstructed made = reconstruct(stack.slices, options_for(stack, options), progress);
+  place_in_world(stack, made.surface, made.repairs);
+  return made;
+}
+
+Reconstructed reconstruct(const Stack& stack, const ContoursByLabel& contours,
+                          const Options& options, const Progress& progress) {
+  Reconstructed made = reconstruct(stack.slices, contours, options_for(stack, options), progress);
+  place_in_world(stack, made.surface, made.repairs);
+  return made;
 }
 
 std::vector<std::string> labels(std::span<const Slice> slices) {

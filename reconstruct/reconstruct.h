@@ -11,6 +11,7 @@
 #include "reconstruct/options.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"
+#include "reconstruct/stack.h"
 #include "reconstruct/surface.h"
 
 namespace loft {
@@ -20,6 +21,9 @@ struct Reconstructed {
   Surface surface;
   std::vector<Defect> repairs;    ///< in the order of heights; none is fatal
   std::vector<SlabReport> slabs;  ///< from low to high; only with Options::reports_slabs
+  /// The volume as planning systems and counts of voxels have it: of each slice its area times its
+  /// thickness, half the gap to either neighbour; see slab_volume().
+  double slab_volume = 0;
 };
 
 /// Thrown by reconstruct() when its Progress asked for it.
@@ -60,6 +64,17 @@ class Cancelled : public Error {
 [[nodiscard]] Reconstructed reconstruct(std::span<const Slice> slices,
                                         const ContoursByLabel& contours, const Options& options,
                                         const Progress& progress = {});
+
+/// The surface through a stack, in the world: its fill rule and keyhole width are the stack's where
+/// that has one. Vertices of contours are where the file has them; where its points lie so far off
+/// their planes that the surface would meet itself, they are in their planes, and
+/// DefectKind::off_plane is among the repairs.
+[[nodiscard]] Reconstructed reconstruct(const Stack& stack, const Options& options = {},
+                                        const Progress& progress = {});
+
+/// The same for Options::label, which has to be set; see above.
+[[nodiscard]] Reconstructed reconstruct(const Stack& stack, const ContoursByLabel& contours,
+                                        const Options& options, const Progress& progress = {});
 
 /// The labels in a stack, sorted, each once; a contour without label counts as "".
 [[nodiscard]] std::vector<std::string> labels(std::span<const Slice> slices);

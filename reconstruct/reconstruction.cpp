@@ -28,8 +28,9 @@ InputError no_slice(double z, const LiveStack& stack) {
 Reconstruction::Reconstruction(Options options)
     : stack_(std::make_unique<LiveStack>(std::move(options))) {
   if (stack_->options.simplify || !stack_->options.links.empty() ||
-      stack_->options.height_tolerance != 0)
-    throw std::invalid_argument("simplify, links and height_tolerance need the whole stack");
+      stack_->options.height_tolerance != 0 || stack_->options.cap == Cap::extend)
+    throw std::invalid_argument(
+        "simplify, links, height_tolerance and Cap::extend need the whole stack");
   require_usable(stack_->options);
 }
 Reconstruction::~Reconstruction() = default;

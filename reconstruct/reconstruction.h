@@ -39,7 +39,7 @@ struct LiveStack;
 class Reconstruction {
  public:
   /// Throws std::invalid_argument for what needs the whole stack: Options::simplify, its links,
-  /// Options::height_tolerance; InputError for lengths that are not usable (usable.h).
+  /// Options::height_tolerance, Cap::extend; InputError for lengths that are not usable (usable.h).
   explicit Reconstruction(Options options = {});
   ~Reconstruction();
   Reconstruction(Reconstruction&&) noexcept;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -14,6 +15,11 @@ namespace loft {
 struct Contour {
   std::vector<cdt::Point> points;
   std::string label;  ///< the structure it belongs to; empty where the stack has no labels
+  /// Where it comes from in its file, as messages say it: `ROI 3 contour 12`; may be empty.
+  std::string source = {};
+  /// Where its points are in the world, as the file has them, where a WorldFrame would only come
+  /// near; none where it gives the same, or there is no frame. As many as there are points.
+  std::vector<std::array<double, 3>> places = {};
 
   friend bool operator==(const Contour&, const Contour&) = default;
 };

@@ -13,7 +13,7 @@
 #include "app/report.h"
 #include "app/terminal.h"
 #include "io/meshes.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "mesh/measure.h"
 
 namespace loft::app {
@@ -128,7 +128,7 @@ void add_verdicts(Json& json, const CheckCommand& command, const std::vector<Ver
 namespace {
 
 ExitCode check_file(const CheckCommand& command, const std::filesystem::path& file,
-                    const std::vector<Slice>& stack, Json& json) {
+                    const Stack& stack, Json& json) {
   const std::vector<io::LabelledMesh> meshes = io::read_meshes(file);
   std::optional<Fidelity> fidelity;
   if (command.stack) fidelity = compare(stack, meshes);
@@ -151,8 +151,8 @@ ExitCode check_file(const CheckCommand& command, const std::filesystem::path& fi
 }  // namespace
 
 ExitCode run(const CheckCommand& command) {
-  std::vector<Slice> stack;
-  if (command.stack) stack = io::read_slices(*command.stack);
+  Stack stack;
+  if (command.stack) stack = io::read_stack(*command.stack);
   EachFile each("loft-check", "mesh", command.json);
   return each.run(command.meshes, [&](const std::filesystem::path& file, Json& json) {
     return check_file(command, file, stack, json);

@@ -9,7 +9,7 @@
 
 #include "app/exit_code.h"
 #include "io/planar/svg.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "reconstruct/options.h"
 
 namespace loft::app {
@@ -23,10 +23,13 @@ struct ReconstructCommand {
   std::vector<std::filesystem::path> outputs;
   Options options = {.height_tolerance = 1e-4};
   std::optional<std::filesystem::path> links;  ///< file of link orders
-  std::string unit = "mm";
+  std::string unit;                            ///< not given: that of the stack, or mm
   Memory memory = Memory::by_size;
-  io::Unlabelled unlabelled = io::Unlabelled::label_by_file;
-  bool strict = false;  ///< a label that cannot be made is a failure
+  io::ReadOptions read = {.unlabelled = io::Unlabelled::label_by_file};
+  std::vector<std::string> only;  ///< labels, see LabelChoice
+  std::vector<std::string> except;
+  std::optional<std::filesystem::path> volumes;  ///< file for the table of volumes
+  bool strict = false;                           ///< a label that cannot be made is a failure
   bool json = false;
   bool slabs = false;  ///< in the report, too
   bool quiet = false;
@@ -52,7 +55,28 @@ struct CheckCommand {
 /// `loft info FILE...`
 struct InfoCommand {
   std::vector<std::filesystem::path> files;
+  io::ReadOptions read;
   bool json = false;
+};
+
+/// `loft convert IN... -o OUT`
+struct ConvertCommand {
+  std::vector<std::filesystem::path> inputs;
+  std::filesystem::path output;
+  io::ReadOptions read = {.unlabelled = io::Unlabelled::label_by_file};
+  std::vector<std::string> only;
+  std::vector<std::string> except;
+  bool quiet = false;
+};
+
+/// `loft slice MESH -o OUT --gap G`
+struct SliceCommand {
+  std::filesystem::path mesh;
+  std::filesystem::path output;
+  std::optional<double> gap;    ///< between slices; or:
+  std::vector<double> heights;  ///< along the normal
+  Vec3 normal{0, 0, 1};         ///< of the slices, of any length but 0
+  bool quiet = false;
 };
 
 /// `loft stream [IN] ...`
@@ -109,5 +133,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const StreamCommand& command);
 [[nodiscard]] ExitCode run(const ViewCommand& command);
 [[nodiscard]] ExitCode run(const SessionCommand& command);
+[[nodiscard]] ExitCode run(const ConvertCommand& command);
+[[nodiscard]] ExitCode run(const SliceCommand& command);
 
 }  // namespace loft::app

@@ -9,6 +9,7 @@
 
 #include "app/report.h"
 #include "cdt/predicates.h"
+#include "reconstruct/world.h"
 
 namespace loft::app {
 
@@ -74,7 +75,7 @@ class PlacesAndEdges {
 
 bool has_contour_edge(const PlacesAndEdges& mesh, const Vec3& a, const Vec3& b) {
   if (mesh.has_edge(a, b)) return true;
-  const Vec3 middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, a[2]};
+  const Vec3 middle{(a[0] + b[0]) / 2, (a[1] + b[1]) / 2, (a[2] + b[2]) / 2};
   return mesh.has_edge(a, middle) && mesh.has_edge(middle, b);
 }
 
@@ -92,7 +93,8 @@ std::string place(std::size_t slice, double z, std::size_t contour, std::size_t 
 
 }  // namespace
 
-Fidelity compare(std::span<const Slice> stack, std::span<const io::LabelledMesh> meshes) {
+Fidelity compare(const Stack& whole, std::span<const io::LabelledMesh> meshes) {
+  const std::vector<Slice>& stack = whole.slices;
   const PlacesAndEdges mesh(meshes);
   Fidelity result;
   const auto note = [&](bool is_there, std::size_t& count, std::size_t& missing, auto... where) {
@@ -107,12 +109,17 @@ Fidelity compare(std::span<const Slice> stack, std::span<const io::LabelledMesh>
       const std::vector<cdt::Point>& points = stack[s].contours[c].points;
       if (is_flat(points)) continue;
       for (std::size_t p = 0; p < points.size(); ++p) {
-        const cdt::Point& next = points[(p + 1) % points.size()];
-        const Vec3 here{points[p].x, points[p].y, z};
+        const auto next = static_cast<std::uint32_t>((p + 1) % points.size());
+        const auto in_world = [&](std::uint32_t point) {
+          return world_place(whole, {points[point].x, points[point].y, z},
+                             {VertexKind::contour, static_cast<std::uint32_t>(s),
+                              static_cast<std::uint32_t>(c), point});
+        };
+        const Vec3 here = in_world(static_cast<std::uint32_t>(p));
         const bool is_there = mesh.find(here).has_value();
         note(is_there, result.vertices, result.missing_vertices, s, z, c, p);
-        if (points[p] == next) continue;
-        const bool is_joined = has_contour_edge(mesh, here, {next.x, next.y, z});
+        if (points[p] == points[next]) continue;
+        const bool is_joined = has_contour_edge(mesh, here, in_world(next));
         note(is_joined, result.edges, result.missing_edges, s, z, c, p);
       }
     }

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/meshes/labelled_mesh.h"
-#include "reconstruct/slice.h"
+#include "reconstruct/stack.h"
 
 namespace loft::app {
 
@@ -23,11 +23,10 @@ struct Fidelity {
   [[nodiscard]] bool is_complete() const { return missing_vertices == 0 && missing_edges == 0; }
 };
 
-/// Looks up every contour vertex (the same coordinates, bit for bit) and every contour edge (an
-/// edge of the mesh between those vertices, or two with its midpoint) in all the meshes together.
-/// Contours whose points are all in one line and edges without length do not count: no surface can
-/// keep them. Cost: O(n log n).
-[[nodiscard]] Fidelity compare(std::span<const Slice> stack,
-                               std::span<const io::LabelledMesh> meshes);
+/// Looks up every contour vertex (the same coordinates in the world, bit for bit) and every contour
+/// edge (an edge of the mesh between those vertices, or two with its midpoint) in all the meshes
+/// together. Contours whose points are all in one line and edges without length do not count: no
+/// surface can keep them. Cost: O(n log n).
+[[nodiscard]] Fidelity compare(const Stack& stack, std::span<const io::LabelledMesh> meshes);
 
 }  // namespace loft::app

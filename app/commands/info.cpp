@@ -4,6 +4,7 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "app/commands/commands.h"
@@ -12,8 +13,10 @@
 #include "app/report.h"
 #include "io/bytes/file.h"
 #include "io/meshes.h"
-#include "io/slices.h"
+#include "io/stack.h"
+#include "io/stacks/stack_line.h"
 #include "mesh/measure.h"
+#include "reconstruct/world.h"
 
 namespace loft::app {
 
@@ -41,28 +44,34 @@ struct StackSummary {
   Bounds bounds;
   std::vector<double> gaps;  ///< between neighbouring heights, sorted
   std::map<std::string, StackSize> labels;
+  Stack about;  ///< without slices
 };
 
-StackSummary summarise(const std::vector<Slice>& stack) {
+StackSummary summarise(Stack stack) {
   StackSummary summary;
-  summary.size = size_of(stack);
+  summary.size = size_of(stack.slices);
   std::vector<double> heights;
-  for (const Slice& slice : stack) {
+  for (std::uint32_t s = 0; s < stack.slices.size(); ++s) {
+    const Slice& slice = stack.slices[s];
     heights.push_back(slice.z);
     if (slice.contours.empty()) ++summary.empty_slices;
     add_sizes(summary.labels, slice);
-    for (const Contour& contour : slice.contours) {
-      for (const cdt::Point& point : contour.points) {
-        summary.bounds.add({point.x, point.y, slice.z});
-      }
+    for (std::uint32_t c = 0; c < slice.contours.size(); ++c) {
+      const auto& points = slice.contours[c].points;
+      for (std::uint32_t p = 0; p < points.size(); ++p)
+        summary.bounds.add(world_place(stack, {points[p].x, points[p].y, slice.z},
+                                       {VertexKind::contour, s, c, p}));
     }
   }
-  summary.size.slices = stack.size();
+  summary.size.slices = stack.slices.size();
+  for (const StackLabel& label : stack.labels) summary.labels.try_emplace(label.name);
   std::ranges::sort(heights);
   for (std::size_t i = 1; i < heights.size(); ++i) {
     summary.gaps.push_back(heights[i] - heights[i - 1]);
   }
   std::ranges::sort(summary.gaps);
+  stack.slices.clear();
+  summary.about = std::move(stack);
   return summary;
 }
 
@@ -80,8 +89,17 @@ void print_bounds(const Bounds& bounds) {
   std::cout << '\n';
 }
 
+Json to_json(const WorldFrame& frame) {
+  Json numbers = Json::array();
+  for (const auto& row : frame.rows)
+    for (const double number : row) numbers.push_back(number);
+  return numbers;
+}
+
 /// `loft info STACK --json`: schema "loft-info", schema_version 1, file, kind "stack", counts,
-/// bounds (low and high corner), gaps (min, median, max; null for one slice), labels.
+/// unit, fill and frame (16 numbers, row by row) where the file says them, else null; bounds (low
+/// and high corner, in the world), gaps (min, median, max; null for one slice), labels (label,
+/// counts, colour `#rrggbb`, id and kind, empty where there is none), notes (what is left out).
 Json to_json(const StackSummary& summary) {
   Json json;
   json["kind"] = "stack";
@@ -89,6 +107,10 @@ Json to_json(const StackSummary& summary) {
   json["empty_slices"] = summary.empty_slices;
   json["contours"] = summary.size.contours;
   json["vertices"] = summary.size.vertices;
+  const Stack& about = summary.about;
+  json["unit"] = about.unit.empty() ? Json() : Json(about.unit);
+  json["fill"] = about.fill ? Json(name(*about.fill)) : Json();
+  json["frame"] = about.frame ? to_json(*about.frame) : Json();
   json["bounds"] = to_json(summary.bounds);
   const std::vector<double>& gaps = summary.gaps;
   json["gaps"] =
@@ -101,13 +123,53 @@ Json to_json(const StackSummary& summary) {
                               {"slices", size.slices},
                               {"contours", size.contours},
                               {"vertices", size.vertices}});
+    const StackLabel* const told = about.find_label(label);
+    json["labels"].back()["colour"] =
+        told != nullptr && told->colour ? io::to_text(*told->colour) : std::string();
+    json["labels"].back()["id"] = told != nullptr ? told->id : std::string();
+    json["labels"].back()["kind"] = told != nullptr ? told->kind : std::string();
   }
+  json["notes"] = about.notes;
   return json;
 }
 
 void print_size(const StackSize& size) {
   std::cout << grouped(size.slices) << " slices, " << grouped(size.contours) << " contours, "
             << grouped(size.vertices) << " vertices";
+}
+
+void print_about(const Stack& about) {
+  std::string line;
+  const auto add = [&](const std::string& text) { line += (line.empty() ? "  " : ", ") + text; };
+  if (!about.unit.empty()) add("unit " + about.unit);
+  if (about.fill) add(std::string("fill ") + name(*about.fill));
+  if (about.frame) add("slices are tilted: coordinates are those of the world");
+  if (!line.empty()) std::cout << line << '\n';
+  for (const std::string& note : about.notes) std::cout << "  " << note << '\n';
+}
+
+/// A line each; of many the names alone.
+void print_labels(const StackSummary& summary) {
+  constexpr std::size_t most_lines = 60;
+  if (summary.labels.size() == 1 && summary.labels.begin()->first.empty()) return;
+  if (summary.labels.size() > most_lines) {
+    std::cout << "  " << grouped(summary.labels.size()) << " labels (all with --json): ";
+    const char* between = "";
+    for (const auto& [label, size] : summary.labels)
+      std::cout << std::exchange(between, ", ") << label;
+    std::cout << '\n';
+    return;
+  }
+  for (const auto& [label, size] : summary.labels) {
+    std::cout << "  label '" << label << "': ";
+    print_size(size);
+    if (const StackLabel* const told = summary.about.find_label(label)) {
+      if (told->colour) std::cout << ", " << io::to_text(*told->colour);
+      if (!told->id.empty()) std::cout << ", id " << told->id;
+      if (!told->kind.empty()) std::cout << ", " << told->kind;
+    }
+    std::cout << '\n';
+  }
 }
 
 void print_stack(const StackSummary& summary) {
@@ -120,12 +182,8 @@ void print_stack(const StackSummary& summary) {
     std::cout << "  gaps between slices " << rounded(gaps.front()) << " to " << rounded(gaps.back())
               << ", median " << rounded(gaps[gaps.size() / 2]) << '\n';
   }
-  for (const auto& [label, size] : summary.labels) {
-    if (label.empty() && summary.labels.size() == 1) continue;
-    std::cout << "  label '" << label << "': ";
-    print_size(size);
-    std::cout << '\n';
-  }
+  print_about(summary.about);
+  print_labels(summary);
 }
 
 struct MeshSummary {
@@ -179,12 +237,12 @@ ExitCode run(const InfoCommand& command) {
       std::cout << file.string() << '\n';
       print_summary(summary);
     };
-    if (io::is_slice_file(file)) {
-      show(summarise(io::read_slices(file)), print_stack);
+    if (io::is_stack_file(file)) {
+      show(summarise(io::read_stack(file, command.read)), print_stack);
     } else if (io::is_mesh_file(file)) {
       show(summarise(io::read_meshes(file)), print_meshes);
     } else {
-      throw io::UnknownFormat(file, io::slice_extensions() + ' ' + io::mesh_extensions());
+      throw io::UnknownFormat(file, io::stack_extensions() + ' ' + io::mesh_extensions());
     }
     return ExitCode::ok;
   });

@@ -6,8 +6,11 @@
 #include <system_error>
 #include <utility>
 
+#include "app/commands/label_choice.h"
+#include "app/commands/label_files.h"
 #include "app/commands/labels.h"
 #include "app/commands/place_of.h"
+#include "app/commands/take_over.h"
 #include "app/interrupt.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
@@ -16,6 +19,7 @@
 #include "io/stack_file.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/reconstruct.h"
+#include "reconstruct/world.h"
 
 namespace loft::app {
 
@@ -28,7 +32,8 @@ constexpr double share_of_reading = 0.1;
 constexpr double share_of_surfaces = 0.85;
 
 bool is_one_ply(const ReconstructCommand& command) {
-  return command.outputs.size() == 1 && io::extension(command.outputs[0]) == ".ply";
+  return command.outputs.size() == 1 && io::extension(command.outputs[0]) == ".ply" &&
+         !is_per_label(command.outputs[0]);
 }
 
 std::uintmax_t input_size(const ReconstructCommand& command) {
@@ -72,6 +77,26 @@ class Overview {
   std::vector<Defect> unusable_;
 };
 
+/// Passes a surface on to where it is in the world.
+class WorldSink : public SurfaceSink {
+ public:
+  WorldSink(const Stack& stack, SurfaceSink& sink) : stack_(stack), sink_(sink) {}
+
+  void add_vertices(std::span<const SurfaceVertex> vertices) override {
+    moved_.assign(vertices.begin(), vertices.end());
+    for (SurfaceVertex& vertex : moved_)
+      vertex.place = world_place(stack_, vertex.place, vertex.origin);
+    sink_.add_vertices(moved_);
+  }
+  void add_faces(std::span<const SurfaceFace> faces) override { sink_.add_faces(faces); }
+  void end(const VertexNumbers& numbers) override { sink_.end(numbers); }
+
+ private:
+  const Stack& stack_;
+  SurfaceSink& sink_;
+  std::vector<SurfaceVertex> moved_;
+};
+
 }  // namespace
 
 bool is_out_of_core(const ReconstructCommand& command) {
@@ -87,31 +112,33 @@ bool is_out_of_core(const ReconstructCommand& command) {
          input_size(command) > most_in_memory;
 }
 
-void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report) {
+void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
   Overview overview;
-  const io::StackFile stack(
-      command.inputs, command.options.threads,
-      [&](const Slice& slice, double share) {
-        overview.add(slice);
-        terminal.show_progress("read", share_of_reading * share);
-        if (is_interrupted()) throw Cancelled();
-      },
-      command.unlabelled);
+  const io::StackFile stack(command.inputs, command.read, [&](const Slice& slice, double share) {
+    overview.add(slice);
+    terminal.show_progress("read", share_of_reading * share);
+    if (is_interrupted()) throw Cancelled();
+  });
   if (!overview.unusable().empty())
     throw InputError(
         with_place(InputError(overview.unusable()).what(), place_of(command, Options())));
+  take_over(stack.about(), command, terminal);
   report.input = overview.total();
   report.seconds["read"] = stopwatch.lap();
 
-  const std::vector<std::string> names = overview.labels();
+  const std::vector<std::string> names =
+      LabelChoice(command.only, command.except).chosen(overview.labels());
   const bool is_labelled = names.size() > 1 || !names[0].empty();
   io::PlyPieces output(command.outputs[0], names);
+  WorldSink in_world(stack.about(), output);
   LabelProblems problems(command);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;
     options.reports_slabs = command.json && command.slabs;
     if (is_labelled) options.label = names[i];
+    const StackLabel* const label = stack.about().find_label(names[i]);
+    options.gap = label != nullptr && label->gap ? label->gap : stack.about().gap;
     const auto follow = [&](Stage stage, double fraction) {
       const double done = (static_cast<double>(i) + fraction) / static_cast<double>(names.size());
       terminal.show_progress(name(stage) + (' ' + names[i]),
@@ -119,11 +146,12 @@ void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Repo
       return !is_interrupted();
     };
     try {
-      OutOfCoreReport made = reconstruct_out_of_core(stack.source(), options, output, follow);
+      OutOfCoreReport made = reconstruct_out_of_core(stack.source(), options, in_world, follow);
       PartReport& part = report.parts.emplace_back();
       part.label = names[i];
       part.input = overview.size_of(names[i]);
       part.measures = made.measures;
+      part.slab_volume = made.slab_volume;
       part.vertices_of_kind = made.vertices_of_kind;
       part.repairs = std::move(made.repairs);
       part.slabs = std::move(made.slabs);

@@ -17,7 +17,8 @@ inline constexpr std::uintmax_t most_in_memory = std::uintmax_t{256} << 20U;
 /// Throws UsageError if it is asked for and cannot be.
 [[nodiscard]] bool is_out_of_core(const ReconstructCommand& command);
 
-/// Makes the surface slab by slab, and writes it. Fills in all of the report.
-void run_out_of_core(const ReconstructCommand& command, Terminal& terminal, Report& report);
+/// Makes the surface slab by slab, and writes it. Fills in all of the report, and in the command
+/// what the stack says of itself.
+void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& report);
 
 }  // namespace loft::app

@@ -9,17 +9,21 @@
 #include <utility>
 
 #include "app/commands/commands.h"
+#include "app/commands/label_choice.h"
+#include "app/commands/label_files.h"
 #include "app/commands/labels.h"
 #include "app/commands/out_of_core.h"
 #include "app/commands/place_of.h"
 #include "app/commands/reconstruct_report.h"
+#include "app/commands/take_over.h"
+#include "app/commands/volume_table.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
 #include "app/unit.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "io/stacks/links_json.h"
 #include "io/surfaces.h"
 #include "mesh/measure.h"
@@ -84,20 +88,35 @@ class Follower {
 void check_outputs(const ReconstructCommand& command) {
   forbid_overwriting(command.inputs, command.outputs);
   if (command.links) forbid_overwriting(std::array{*command.links}, command.outputs);
-  for (const path& output : command.outputs) io::check_writable(output);
+  for (const path& output : command.outputs)
+    if (!is_per_label(output)) io::check_writable(output);
+}
+
+/// The same, once the labels are known.
+void check_outputs(const ReconstructCommand& command, const std::vector<std::string>& labels) {
+  for (const path& output : command.outputs) {
+    if (!is_per_label(output)) {
+      check_labels_fit(labels.size(), output);
+      continue;
+    }
+    const std::vector<path> files = label_files(output, labels);
+    forbid_overwriting(command.inputs, files);
+    for (const path& file : files) io::check_writable(file);
+  }
 }
 
 struct Result {
   /// Made in its place, and stays there: an OpenMesh mesh cannot be moved, only copied.
-  Result(const std::vector<Slice>& stack, const ContoursByLabel& contours, const Options& options,
+  Result(const Stack& stack, const ContoursByLabel& contours, const Options& options,
          Follower& follower)
       : made(options.label ? reconstruct(stack, contours, options, std::ref(follower))
                            : reconstruct(stack, options, std::ref(follower))) {
     report.label = options.label.value_or("");
-    report.input = size_of(stack, contours.of(report.label));
+    report.input = size_of(stack.slices, contours.of(report.label));
     report.seconds = follower.finish();
     report.vertices_of_kind = count_kinds(made.surface);
     report.repairs = std::move(made.repairs);
+    report.slab_volume = made.slab_volume;
     report.slabs = std::move(made.slabs);
   }
 
@@ -106,15 +125,17 @@ struct Result {
 };
 
 /// All labels but those that are skipped, or one InputError for all that cannot be reconstructed.
-std::list<Result> reconstruct_all(const ReconstructCommand& command,
-                                  const std::vector<Slice>& stack, const Options& all_options,
-                                  Terminal& terminal, std::vector<SkippedLabel>& skipped) {
-  const ContoursByLabel contours(stack);
-  std::vector<std::string> names = contours.labels();
+std::list<Result> reconstruct_all(const ReconstructCommand& command, const Stack& stack,
+                                  const Options& all_options, Terminal& terminal,
+                                  std::vector<SkippedLabel>& skipped) {
+  const ContoursByLabel contours(stack.slices);
+  std::vector<std::string> names =
+      LabelChoice(command.only, command.except).chosen(contours.labels());
   if (names.empty()) names.emplace_back();
-  for (const path& output : command.outputs) check_labels_fit(names.size(), output);
+  check_outputs(command, names);
   const bool is_labelled = names.size() > 1 || !names[0].empty();
-  const bool is_measured = command.json || !command.quiet;  // else nobody sees it
+  const bool is_measured =
+      command.json || !command.quiet || command.volumes;  // else nobody sees it
   const double share = 1.0 / static_cast<double>(names.size());
   std::list<Result> results;
   LabelProblems problems(command);
@@ -166,39 +187,56 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   return options;
 }
 
-void write_all(const ReconstructCommand& command, const std::list<Result>& results) {
+void write_all(const ReconstructCommand& command, const Stack& stack,
+               const std::list<Result>& results) {
   std::vector<io::Part> parts;
-  for (const Result& result : results) parts.push_back({result.report.label, &result.made.surface});
+  for (const Result& result : results) {
+    const StackLabel* const label = stack.find_label(result.report.label);
+    parts.push_back({result.report.label, &result.made.surface,
+                     label != nullptr ? label->colour : std::nullopt});
+  }
+  std::vector<std::string> labels;
+  for (const io::Part& part : parts) labels.push_back(part.label);
   for (const path& output : command.outputs) {
-    if (is_interrupted()) throw Cancelled();
-    io::write(output, parts, write_options(command));
+    if (!is_per_label(output)) {
+      if (is_interrupted()) throw Cancelled();
+      io::write(output, parts, write_options(command));
+      continue;
+    }
+    const std::vector<path> files = label_files(output, labels);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      if (is_interrupted()) throw Cancelled();
+      io::write(files[i], {&parts[i], 1}, write_options(command));
+    }
   }
 }
 
 void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
+  if (report.parts.size() > 1)
+    for (const std::string& line : volume_table(report.parts, command.unit)) terminal.say(line);
   for (const PartReport& part : report.parts) {
     const std::string prefix = part.label.empty() ? "" : part.label + ": ";
-    terminal.say(prefix + describe(part.measures, command.unit));
+    if (report.parts.size() == 1) terminal.say(prefix + describe(part.measures, command.unit));
     if (!part.repairs.empty())
       terminal.say(prefix + describe(summarize(part.repairs), command.unit));
   }
   for (const path& output : command.outputs) terminal.say("wrote " + output.string());
 }
 
-void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report& report) {
+void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
-  const std::vector<Slice> stack =
-      io::read_slices(command.inputs, command.options.threads, command.unlabelled);
-  report.input = size_of(stack);
-  report.input.slices = stack.size();
+  const Stack stack = io::read_stack(command.inputs, command.read);
+  take_over(stack, command, terminal);
+  report.input = size_of(stack.slices);
+  report.input.slices = stack.slices.size();
   report.seconds["read"] = stopwatch.lap();
 
   Options options = command.options;
-  if (command.links) options.links = io::read_links_json(*command.links, stack);
+  if (command.links) options.links = io::read_links_json(*command.links, stack.slices);
   options.reports_slabs = command.json && command.slabs;
   std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
   stopwatch.lap();
-  write_all(command, results);
+  write_all(command, stack, results);
   report.seconds["write"] = stopwatch.lap();
   for (Result& result : results) {
     for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;
@@ -208,7 +246,9 @@ void run_in_memory(const ReconstructCommand& command, Terminal& terminal, Report
 
 }  // namespace
 
-ExitCode run(const ReconstructCommand& command) {
+ExitCode run(const ReconstructCommand& given) {
+  ReconstructCommand command = given;
+  command.read.threads = command.options.threads;
   Terminal terminal(command.quiet);
   Report report;
   Stopwatch total;
@@ -225,6 +265,7 @@ ExitCode run(const ReconstructCommand& command) {
   for (const SkippedLabel& label : report.skipped)
     terminal.warn(label.message + "; nothing was made of it");
   for (const PartReport& part : report.parts) warn(command, part, terminal);
+  if (command.volumes) write_volumes_csv(*command.volumes, report.parts, command.unit);
   say_summary(command, report, terminal);
   if (command.json) std::cout << to_json(report, command) << '\n';
   return command.strict && !report.skipped.empty() ? ExitCode::bad_input : ExitCode::ok;

@@ -125,6 +125,7 @@ Json to_json(const PartReport& part, bool lists_slabs) {
   json["label"] = part.label;
   add_size(json, part.input);
   add_measures(json, part.measures);
+  json["slab_volume"] = part.slab_volume;
   add_angles(json, part.measures.angles);
   json["seconds"] = part.seconds;
   const auto& [contour, cleaning, crossing, steiner] = part.vertices_of_kind;

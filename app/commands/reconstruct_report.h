@@ -41,6 +41,7 @@ struct PartReport {
   std::string label;
   StackSize input;
   Measures measures;
+  double slab_volume = 0;                         ///< see Reconstructed
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
   std::vector<Defect> repairs;
   std::vector<SlabReport> slabs;
@@ -70,15 +71,18 @@ struct SkippedLabel {
 ///                          simplify, write, total
 ///     skipped              labels without a surface: label, message
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
-///                          components, genus, area, volume, angles, seconds, vertices_of_kind
-///                          (contour, cleaning, crossing, steiner), cleaning (area; counts by kind;
-///                          slices: a list of slice, z, repairs, area), repairs (a list); with
+///                          components, genus, area, volume, slab_volume, angles, seconds,
+///                          vertices_of_kind (contour, cleaning, crossing, steiner), cleaning
+///                          (area; counts by kind; slices: a list of slice, z, repairs, area),
+///                          repairs (a list); with
 ///                          --slabs slabs (a list; out of core an empty one)
 ///
-/// angles: of the smallest one of each triangle, in degrees, the least, percentile_5 and median;
-/// worst_aspect, the longest side over the height on it, 1 where all sides are equal.
-/// A repair: kind, slice (index in the input), z, contour, point, place [x, y] (null where not
-/// known), area (that it decided: see Defect), message.
+/// volume: what the surface encloses; slab_volume: the sum of each slice's area times its
+/// thickness, as planning systems and counts of voxels have it. angles: of the smallest one of each
+/// triangle, in degrees, the least, percentile_5 and median; worst_aspect, the longest side over
+/// the height on it, 1 where all sides are equal. A repair: kind, slice (index in the input), z,
+/// contour, point, place [x, y] (null where not known), area (that it decided: see Defect),
+/// message.
 ///
 /// A slab, from low to high: slices [lower, upper], z [lower, upper], sheet_area, wall_area,
 /// overlap, shift, confidence, links (a list). A link: kind (link, split, merge, tangle, birth,

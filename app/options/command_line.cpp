@@ -18,7 +18,8 @@
 #include "app/unit.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
-#include "io/slices.h"
+#include "io/stack.h"
+#include "io/stack_writer.h"
 #include "io/surfaces.h"
 #include "io/triangulations.h"
 #include "io/version.h"
@@ -42,7 +43,7 @@ std::string footer() {
          "each\n"
          "label is reconstructed on its own. '-' reads standard input.\n"
          "  stacks " +
-         loft::io::slice_extensions() + "; surfaces out " + loft::io::surface_extensions() +
+         loft::io::stack_extensions() + "; surfaces out " + loft::io::surface_extensions() +
          "\n"
          "Polylines: GeoJSON, or text with a line 'n closed' (0 or 1) for each and n lines 'x y'.\n"
          "  polylines " +
@@ -79,13 +80,15 @@ void add_triangle_options(CLI::App& sub, loft::Options& options) {
 }
 
 /// What is inside, and how the ends are closed.
-void add_slice_options(CLI::App& sub, loft::Options& options) {
+void add_slice_options(CLI::App& sub, loft::Options& options,
+                       std::optional<loft::Fill>* given_fill = nullptr) {
   sub.add_option_function<std::string>(
          "--fill",
-         [&options](const std::string& fill) {
+         [&options, given_fill](const std::string& fill) {
            options.fill = fill == "nonzero"   ? loft::Fill::nonzero
                           : fill == "evenodd" ? loft::Fill::even_odd
                                               : loft::Fill::keyhole_aware;
+           if (given_fill != nullptr) *given_fill = options.fill;
          },
          "What is inside: nested contours are holes (evenodd, default), overlapping ones make "
          "their union (nonzero), or as evenodd with holes that a channel joins to their outline "
@@ -106,13 +109,62 @@ void add_slice_options(CLI::App& sub, loft::Options& options) {
   sub.add_option_function<std::string>(
          "--cap",
          [&options](const std::string& cap) {
-           options.cap = cap == "flat"   ? loft::Cap::flat
-                         : cap == "dome" ? loft::Cap::dome
-                                         : loft::Cap::open;
+           options.cap = cap == "flat"     ? loft::Cap::flat
+                         : cap == "dome"   ? loft::Cap::dome
+                         : cap == "extend" ? loft::Cap::extend
+                                           : loft::Cap::open;
          },
-         "What closes the first and last slice (default flat)")
+         given_fill == nullptr
+             ? "What closes the first and last slice (default flat)"
+             : "What closes the first and last slice (default flat); extend: they go on for half "
+               "a gap, as slices of planning systems and voxels do")
       ->type_name("CAP")
-      ->check(CLI::IsMember({"flat", "dome", "open"}));
+      ->check(given_fill == nullptr ? CLI::IsMember({"flat", "dome", "open"})
+                                    : CLI::IsMember({"flat", "dome", "open", "extend"}));
+}
+
+/// What readers of other formats want to know.
+void add_read_options(CLI::App& sub, io::ReadOptions& options) {
+  sub.add_option_function<std::string>(
+         "--spacing", [&options](const std::string& text) { options.spacing = spacing(text); },
+         "Distances between pixel centres and between slices, for images that do not say them")
+      ->type_name("X,Y,Z")
+      ->check(CLI::Validator(complain_of_spacing, ""));
+  sub.add_option_function<std::string>(
+         "--outline",
+         [&options](const std::string& outline) {
+           options.outline = outline == "iso" ? io::Outline::iso_lines : io::Outline::edges;
+         },
+         "How masks are outlined: half way between pixel centres (iso, default), or along the "
+         "pixels' edges (edges)")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"iso", "edges"}));
+  sub.add_option("--z-property", options.z_property,
+                 "Property of GeoJSON that heights are in (default: ELEV, elevation, z, ...)")
+      ->type_name("NAME");
+  sub.add_option_function<std::string>(
+         "--close",
+         [&options](const std::string&) { options.open_lines = io::OpenLines::close_along_border; },
+         "Close isolines that end at the border of the data along it (border); otherwise they are "
+         "refused")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"border"}));
+  sub.add_option("--alignment", options.alignment,
+                 "Which alignment of the sections of a .jser file (default: the current one)")
+      ->type_name("NAME");
+}
+
+/// Which labels.
+void add_label_options(CLI::App& sub, std::vector<std::string>& only,
+                       std::vector<std::string>& except) {
+  sub.add_option("--only", only,
+                 "Only labels of that name, or like a pattern with * and ?; may be repeated; "
+                 "@FILE: a name a line")
+      ->type_name("LABEL")
+      ->allow_extra_args(false);
+  sub.add_option("--except", except, "No labels of that name, or like that pattern")
+      ->type_name("LABEL")
+      ->allow_extra_args(false);
 }
 
 /// How the surface goes from slice to slice.
@@ -143,11 +195,14 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
   sub->add_option("IN", command.inputs, "Stack files, or - for standard input")->required();
   sub->add_option("-o,--output", command.outputs,
-                  "Output file, " + loft::io::surface_extensions() + "; may be repeated")
+                  "Output file, " + loft::io::surface_extensions() +
+                      "; may be repeated; '{label}' in its name: a file a label")
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
-  add_slice_options(*sub, command.options);
+  add_label_options(*sub, command.only, command.except);
+  add_read_options(*sub, command.read);
+  add_slice_options(*sub, command.options, &command.read.fill);
   sub->add_option("--threads", command.options.threads,
                   "Threads that work at the same time; 0 (default): as many as the machine has")
       ->type_name("N")
@@ -171,7 +226,8 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->type_name("FILE");
   add_triangle_options(*sub, command.options);
   sub->add_option("--unit", command.unit,
-                  "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
+                  "Unit of the input, for glTF's metres (default: what the stack says, or mm): " +
+                      std::string(unit_names))
       ->type_name("UNIT")
       ->check(CLI::Validator(complain_of_unit, ""));
   sub->add_option("--height-tolerance", command.options.height_tolerance,
@@ -180,14 +236,66 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.1));
   sub->add_flag_callback(
-      "--merge", [&command] { command.unlabelled = io::Unlabelled::keep; },
+      "--merge", [&command] { command.read.unlabelled = io::Unlabelled::keep; },
       "Several files are one stack; otherwise contours without a label take the name of "
       "their file");
+  sub->add_option("--csv", command.volumes,
+                  "Write a table of volumes: label, slices, contours, cm^3 and the unit's, area")
+      ->type_name("FILE");
   sub->add_flag("--strict", command.strict,
                 "Exit with 3 if no surface could be made of a label (the others are written)");
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
   sub->add_flag("--slabs", command.slabs, "List all slabs and their links in it");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  return sub;
+}
+
+/// Adds `loft convert`; the command is ready when the line has been parsed.
+CLI::App* add_convert(CLI::App& app, ConvertCommand& command) {
+  CLI::App* sub = app.add_subcommand("convert", "Write a stack of any format as another one");
+  sub->add_option("IN", command.inputs, "Stack files, or - for standard input")->required();
+  sub->add_option("-o,--output", command.output,
+                  "Output file, " + loft::io::stack_writer_extensions())
+      ->required()
+      ->type_name("OUT");
+  add_label_options(*sub, command.only, command.except);
+  add_read_options(*sub, command.read);
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  sub->footer(
+      "Examples:\n"
+      "  loft convert plan.dcm -o plan.ndjson --only 'Lung*'\n"
+      "  loft convert labels.nii.gz -o outlines.csv");
+  return sub;
+}
+
+/// Adds `loft slice`; the command is ready when the line has been parsed.
+CLI::App* add_slice(CLI::App& app, SliceCommand& command) {
+  CLI::App* sub = app.add_subcommand("slice", "Cut a mesh into a stack of outlines");
+  sub->add_option("MESH", command.mesh, "Mesh file, " + loft::io::mesh_extensions())->required();
+  sub->add_option("-o,--output", command.output,
+                  "Output file, " + loft::io::stack_writer_extensions())
+      ->required()
+      ->type_name("OUT");
+  CLI::Option* const gap =
+      sub->add_option("--gap", command.gap, "Distance between slices, the first half of it inside")
+          ->type_name("LENGTH")
+          ->check(CLI::Validator(complain_of_length, ""));
+  CLI::Option* const heights =
+      sub->add_option("--heights", command.heights, "Heights of the slices, in any order")
+          ->type_name("Z,...")
+          ->delimiter(',')
+          ->allow_extra_args(false);
+  gap->excludes(heights);
+  sub->add_option_function<std::string>(
+         "--normal", [&command](const std::string& text) { command.normal = *direction(text); },
+         "Direction that slices are across and heights along (default 0,0,1)")
+      ->type_name("X,Y,Z")
+      ->check(CLI::Validator(complain_of_direction, ""));
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  sub->footer(
+      "Examples:\n"
+      "  loft slice bunny.ply -o bunny.ndjson --gap 0.5\n"
+      "  loft slice part.stl -o part.ndjson --heights 1,2.5,4 --normal 1,0,1");
   return sub;
 }
 
@@ -363,6 +471,7 @@ CLI::App* add_check(CLI::App& app, CheckCommand& command) {
 CLI::App* add_info(CLI::App& app, InfoCommand& command) {
   CLI::App* sub = app.add_subcommand("info", "Show counts, bounds, gaps and labels of files");
   sub->add_option("FILE", command.files, "Stacks or meshes")->required();
+  add_read_options(*sub, command.read);
   sub->add_flag("--json", command.json, "Print the result as one JSON object; a list of several");
   return sub;
 }
@@ -433,6 +542,12 @@ CommandLine::CommandLine()
   when(add_session(app_, session_), [this] { return run_at_once(session_); });
   when(add_triangulate(app_, triangulate_), [this] { return app::run(triangulate_); });
   when(add_check(app_, check_), [this] { return run_at_once(check_); });
+  when(add_convert(app_, convert_), [this] { return run_at_once(convert_); });
+  when(add_slice(app_, slice_), [this] {
+    if (!slice_.gap && slice_.heights.empty())
+      throw UsageError("loft slice needs --gap or --heights");
+    return run_at_once(slice_);
+  });
   when(add_info(app_, info_), [this] { return run_at_once(info_); });
   when(add_help(app_, help_), [this] { return show_help(app_, help_); });
   when(add_completion(app_, shell_), [this] {

@@ -33,6 +33,8 @@ class CommandLine {
   TriangulateCommand triangulate_;
   CheckCommand check_;
   InfoCommand info_;
+  ConvertCommand convert_;
+  SliceCommand slice_;
   std::vector<std::string> help_;  // the words behind it
   std::string shell_;
   std::vector<std::pair<const CLI::App*, std::function<ExitCode()>>> runs_;

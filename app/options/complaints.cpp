@@ -26,6 +26,49 @@ std::string complain_of_rate(const std::string& text) {
   return "'" + text + "' is no rate; give a number from 0.001 to 1000, edits a second";
 }
 
+namespace {
+
+/// Three numbers with commas between them.
+std::optional<Vec3> three_numbers(const std::string& text) {
+  Vec3 numbers{};
+  std::size_t begin = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const std::size_t end = axis < 2 ? text.find(',', begin) : text.size();
+    if (end == std::string::npos) return {};
+    if (!CLI::detail::lexical_cast(text.substr(begin, end - begin), numbers[axis])) return {};
+    begin = end + 1;
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::optional<Vec3> spacing(const std::string& text) {
+  const auto lengths = three_numbers(text);
+  if (!lengths) return {};
+  for (const double length : *lengths)
+    if (!(length > 0) || !admitted::length.admits_length(length)) return {};
+  return lengths;
+}
+
+std::optional<Vec3> direction(const std::string& text) {
+  const auto numbers = three_numbers(text);
+  if (!numbers || *numbers == Vec3{}) return {};
+  for (const double number : *numbers)
+    if (!admitted::length.admits(number)) return {};
+  return numbers;
+}
+
+std::string complain_of_direction(const std::string& text) {
+  if (direction(text)) return {};
+  return "'" + text + "' is no direction; give three numbers X,Y,Z, not all 0";
+}
+
+std::string complain_of_spacing(const std::string& text) {
+  if (spacing(text)) return {};
+  return "'" + text + "' is no spacing; give three lengths X,Y,Z, for example 0.5,0.5,3";
+}
+
 std::string complain_of_distance(const std::string& text) {
   double distance = 0;
   if (CLI::detail::lexical_cast(text, distance) && admitted::length.admits_length(distance))

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
+
+#include "mesh/mesh.h"
 
 namespace loft::app {
 
@@ -13,5 +16,13 @@ namespace loft::app {
 [[nodiscard]] std::string complain_of_epsilon(const std::string& text);
 /// Edits a second, within what glTF's seconds, which are floats, tell apart.
 [[nodiscard]] std::string complain_of_rate(const std::string& text);
+[[nodiscard]] std::string complain_of_spacing(const std::string& text);
+
+[[nodiscard]] std::string complain_of_direction(const std::string& text);
+
+/// Three lengths with commas between them; none if the text is anything else.
+[[nodiscard]] std::optional<Vec3> spacing(const std::string& text);
+/// Three numbers, not all 0.
+[[nodiscard]] std::optional<Vec3> direction(const std::string& text);
 
 }  // namespace loft::app

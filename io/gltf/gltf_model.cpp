@@ -67,8 +67,9 @@ tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffe
   return result;
 }
 
-tinygltf::Material material(const std::string& name, bool is_double_sided) {
-  const auto [red, green, blue] = label_colour(name);
+tinygltf::Material material(const std::string& name, bool is_double_sided,
+                            std::optional<Colour> colour) {
+  const auto [red, green, blue] = colour ? linear(*colour) : label_colour(name);
   tinygltf::Material result;
   result.name = name;
   result.pbrMetallicRoughness.baseColorFactor = {red, green, blue, 1.0};

@@ -6,12 +6,14 @@
 
 #include <cstddef>
 #include <ostream>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/bytes/little_endian.h"
 #include "io/gltf/shading.h"
 #include "mesh/mesh.h"
+#include "reconstruct/stack.h"
 
 namespace loft::io {
 
@@ -74,8 +76,9 @@ class Buffer {
 [[nodiscard]] tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffer,
                                             tinygltf::Model& model);
 
-/// Not metallic, in the colour of the label of that name.
-[[nodiscard]] tinygltf::Material material(const std::string& name, bool is_double_sided);
+/// Not metallic, in that colour, or that of the label of that name.
+[[nodiscard]] tinygltf::Material material(const std::string& name, bool is_double_sided,
+                                          std::optional<Colour> colour = {});
 
 /// An empty model with its version, the program's name and a scene.
 [[nodiscard]] tinygltf::Model empty_model();

@@ -47,7 +47,7 @@ void add_part(const Part& part, const Frame& frame, Buffer& buffer, tinygltf::Mo
   mesh.primitives.push_back(primitive(shade(*part.surface), frame, buffer, model));
   mesh.primitives.back().material = static_cast<int>(number);
   model.meshes.push_back(std::move(mesh));
-  model.materials.push_back(material(name_of(part), is_open(*part.surface)));
+  model.materials.push_back(material(name_of(part), is_open(*part.surface), part.colour));
 
   tinygltf::Node node;
   node.name = name_of(part);

@@ -42,4 +42,12 @@ std::array<double, 3> label_colour(std::string_view label) {
   return {channel(5), channel(3), channel(1)};
 }
 
+std::array<double, 3> linear(Colour colour) {
+  const auto channel = [](std::uint8_t value) {
+    const double share = value / 255.0;
+    return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
+  };
+  return {channel(colour.red), channel(colour.green), channel(colour.blue)};
+}
+
 }  // namespace loft::io

@@ -4,6 +4,8 @@
 #include <array>
 #include <string_view>
 
+#include "reconstruct/stack.h"
+
 namespace loft::io {
 
 /// The colour of a label, wherever it is shown: linear red, green and blue, as glTF has them. It
@@ -11,5 +13,8 @@ namespace loft::io {
 /// give hues, and tones of them, at random. Nothing and `surface`, as files call it, have that of
 /// bone. Characters that some formats cannot hold count as what stands for them there.
 [[nodiscard]] std::array<double, 3> label_colour(std::string_view label);
+
+/// A colour of sRGB as a linear one (IEC 61966-2-1).
+[[nodiscard]] std::array<double, 3> linear(Colour colour);
 
 }  // namespace loft::io

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "reconstruct/stack.h"
 #include "reconstruct/surface.h"
 
 namespace loft::io {
@@ -14,6 +16,7 @@ namespace loft::io {
 struct Part {
   std::string label;
   const Surface* surface = nullptr;
+  std::optional<Colour> colour = {};  ///< that the source gives it; none: by its name
 };
 
 /// What writers need to know beside the surfaces.

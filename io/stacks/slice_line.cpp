@@ -62,7 +62,13 @@ class LineReader {
       read_contours();
     } else if (key == "labels") {
       has_labels_ = true;
-      read_labels();
+      read_texts(labels_, "label", "\"labels\": ");
+    } else if (key == "sources") {
+      has_sources_ = true;
+      read_texts(sources_, "source", "\"sources\": ");
+    } else if (key == "places") {
+      has_places_ = true;
+      read_places();
     } else if (key == "op") {
       read_op();
     } else {
@@ -100,14 +106,37 @@ class LineReader {
     }
   }
 
-  void read_labels() {
-    labels_.clear();
-    if (json_.peek() != JsonKind::list) return reject("\"labels\": ", "a list of names");
+  void read_texts(std::vector<std::string>& texts, const std::string& one,
+                  const std::string& place) {
+    texts.clear();
+    if (json_.peek() != JsonKind::list) return reject(place, "a list of names");
     json_.begin_list();
     while (json_.next_item()) {
       const bool is_name = json_.peek() == JsonKind::string;
-      if (!is_name) reject("label " + std::to_string(labels_.size()) + ": ", "a name in quotes");
-      labels_.push_back(is_name ? json_.string() : std::string());
+      if (!is_name) reject(one + ' ' + std::to_string(texts.size()) + ": ", "a name in quotes");
+      texts.push_back(is_name ? json_.string() : std::string());
+    }
+  }
+
+  void read_places() {
+    places_.clear();
+    if (json_.peek() != JsonKind::list) return reject("\"places\": ", "a list of lists of places");
+    json_.begin_list();
+    while (json_.next_item()) {
+      auto& places = places_.emplace_back();
+      const std::string place = "places of contour " + std::to_string(places_.size() - 1) + ": ";
+      if (json_.peek() != JsonKind::list) {
+        reject(place, "a list of places");
+        continue;
+      }
+      json_.begin_list();
+      while (json_.next_item()) {
+        if (json_.peek() == JsonKind::list) {
+          places.push_back(read_coordinates<3>([&] { return place; }, "a place [x, y, z]"));
+        } else {
+          reject(place, "a place [x, y, z]");
+        }
+      }
     }
   }
 
@@ -142,18 +171,23 @@ class LineReader {
       reject(point_place(), "a point [x, y]");
       return {};
     }
-    const auto place = [this] { return point_place(); };
-    std::array<double, 2> coordinates{};
+    const auto [x, y] = read_coordinates<2>([this] { return point_place(); }, "[x, y]");
+    return {x, y};
+  }
+
+  /// Precondition: a list comes next.
+  template <std::size_t Count, class Place>
+  std::array<double, Count> read_coordinates(const Place& place, const char* wanted) {
+    std::array<double, Count> coordinates{};
     std::size_t count = 0;
     json_.begin_list();
     for (; json_.next_item(); ++count) {
       const auto value = read_number(place, "a finite number or leave the point out");
-      if (count < coordinates.size()) coordinates[count] = value.value_or(0);
+      if (count < Count) coordinates[count] = value.value_or(0);
     }
-    if (count != coordinates.size()) {
-      complain(point_place() + "has " + std::to_string(count) + " coordinates instead of [x, y]");
-    }
-    return {coordinates[0], coordinates[1]};
+    if (count != Count)
+      complain(place() + "has " + std::to_string(count) + " coordinates instead of " + wanted);
+    return coordinates;
   }
 
   /// What only the whole line can tell.
@@ -172,14 +206,39 @@ class LineReader {
                       std::to_string(contours.size()) + " contours; each contour needs one");
     }
     for (std::size_t i = 0; i < labels_.size(); ++i) contours[i].label = std::move(labels_[i]);
+    take_sources(contours);
+    take_places(contours);
+  }
+
+  void take_sources(std::vector<Contour>& contours) {
+    if (has_sources_ && sources_.size() != contours.size())
+      return complain(std::to_string(sources_.size()) + " sources for " +
+                      std::to_string(contours.size()) + " contours; each contour needs one");
+    for (std::size_t i = 0; i < sources_.size(); ++i) contours[i].source = std::move(sources_[i]);
+  }
+
+  void take_places(std::vector<Contour>& contours) {
+    if (has_places_ && places_.size() != contours.size())
+      return complain("places of " + std::to_string(places_.size()) + " contours instead of " +
+                      std::to_string(contours.size()));
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+      if (!places_[i].empty() && places_[i].size() != contours[i].points.size())
+        complain("contour " + std::to_string(i) + " has " + std::to_string(places_[i].size()) +
+                 " places for " + std::to_string(contours[i].points.size()) + " points");
+      contours[i].places = std::move(places_[i]);
+    }
   }
 
   JsonReader json_;
   Content content_;
   EditLine line_;
   std::vector<std::string> labels_;
-  KeyWatch keys_{"z", "contours", "labels", "op"};
+  std::vector<std::string> sources_;
+  std::vector<std::vector<std::array<double, 3>>> places_;
+  KeyWatch keys_{"z", "contours", "labels", "sources", "places", "op"};
   bool has_labels_ = false;
+  bool has_sources_ = false;
+  bool has_places_ = false;
 };
 
 }  // namespace

@@ -6,7 +6,7 @@
 #include <istream>
 #include <string_view>
 
-#include "reconstruct/slice.h"
+#include "reconstruct/stack.h"
 
 namespace loft::io {
 
@@ -17,8 +17,9 @@ struct LinePlace {
 };
 
 /// Reads a stack file slice by slice, lines in parallel, and calls take(slice, place) in their
-/// order. Throws what read_slices_json() does, after the last slice.
-void for_each_slice(std::istream& in, std::string_view name, unsigned threads,
-                    const std::function<void(Slice&& slice, LinePlace place)>& take);
+/// order. Returns what its first line says of the stack, without slices. Throws what
+/// read_stack_json() does, after the last slice.
+Stack for_each_slice(std::istream& in, std::string_view name, unsigned threads,
+                     const std::function<void(Slice&& slice, LinePlace place)>& take);
 
 }  // namespace loft::io

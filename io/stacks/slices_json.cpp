@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <sstream>
 #include <string>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "io/stacks/edit.h"
 #include "io/stacks/slice_line.h"
 #include "io/stacks/slice_lines.h"
+#include "io/stacks/stack_line.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
 #include "reconstruct/parallel.h"
@@ -81,14 +83,29 @@ class Batches {
   std::vector<NumberedLine> lines_;  // their memory is used again
 };
 
+/// Whether a line tells of the whole stack.
+bool take_stack_line(const NumberedLine& line, std::string_view name, Stack& about,
+                     Problems& problems) {
+  auto parsed = parse_stack_line(line.text);
+  if (!parsed) return false;
+  for (const std::string& problem : parsed->problems)
+    problems.add(std::string(name) + ':' + std::to_string(line.number) + ": " + problem);
+  about = std::move(parsed->stack);
+  return true;
+}
+
 }  // namespace
 
-void for_each_slice(std::istream& in, std::string_view name, unsigned threads,
-                    const std::function<void(Slice&& slice, LinePlace place)>& take) {
+Stack for_each_slice(std::istream& in, std::string_view name, unsigned threads,
+                     const std::function<void(Slice&& slice, LinePlace place)>& take) {
   Problems problems;
+  Stack about;
   Batches batches(in);
   std::size_t count = 0;
+  bool is_first = true;
   for (auto lines = batches.next(); !lines.empty(); lines = batches.next()) {
+    if (std::exchange(is_first, false) && take_stack_line(lines.front(), name, about, problems))
+      lines = lines.subspan(1);
     std::vector<SliceLine> parsed(lines.size());
     for_each_index(lines.size(), threads,
                    [&](std::size_t i, unsigned) { parsed[i] = parse_slice_line(lines[i].text); });
@@ -104,13 +121,24 @@ void for_each_slice(std::istream& in, std::string_view name, unsigned threads,
     throw InputError(std::string(name) +
                      ": no slices in it; expected lines {\"z\": ..., \"contours\": [...]}");
   }
+  return about;
+}
+
+Stack read_stack_json(std::istream& in, std::string_view name, unsigned threads) {
+  std::vector<Slice> slices;
+  Stack stack = for_each_slice(
+      in, name, threads, [&](Slice&& slice, LinePlace) { slices.push_back(std::move(slice)); });
+  stack.slices = std::move(slices);
+  return stack;
+}
+
+Stack read_ndjson(const StackInput& input, const ReadOptions& options) {
+  std::istringstream in{std::string(input.bytes)};
+  return read_stack_json(in, input.name, options.threads);
 }
 
 std::vector<Slice> read_slices_json(std::istream& in, std::string_view name, unsigned threads) {
-  std::vector<Slice> slices;
-  for_each_slice(in, name, threads,
-                 [&](Slice&& slice, LinePlace) { slices.push_back(std::move(slice)); });
-  return slices;
+  return read_stack_json(in, name, threads).slices;
 }
 
 namespace {
@@ -127,12 +155,35 @@ void append_points(std::string& text, std::span<const cdt::Point> points) {
   text += ']';
 }
 
-void append_labels(std::string& text, std::span<const Contour> contours) {
-  if (std::ranges::all_of(contours, [](const Contour& c) { return c.label.empty(); })) return;
-  text += ",\"labels\":[";
+void append_texts(std::string& text, std::string_view key, std::span<const Contour> contours,
+                  std::string Contour::*member) {
+  if (std::ranges::all_of(contours, [&](const Contour& c) { return (c.*member).empty(); })) return;
+  text += ",\"";
+  text += key;
+  text += "\":[";
   for (std::size_t i = 0; i < contours.size(); ++i) {
     if (i > 0) text += ',';
-    append_json_string(text, contours[i].label);
+    append_json_string(text, contours[i].*member);
+  }
+  text += ']';
+}
+
+void append_places(std::string& text, std::span<const Contour> contours) {
+  if (std::ranges::all_of(contours, [](const Contour& c) { return c.places.empty(); })) return;
+  text += ",\"places\":";
+  for (std::size_t i = 0; i < contours.size(); ++i) {
+    text += i == 0 ? "[[" : ",[";
+    for (std::size_t k = 0; k < contours[i].places.size(); ++k) {
+      const auto& [x, y, z] = contours[i].places[k];
+      text += k == 0 ? "[" : ",[";
+      append_number(text, x);
+      text += ',';
+      append_number(text, y);
+      text += ',';
+      append_number(text, z);
+      text += ']';
+    }
+    text += ']';
   }
   text += ']';
 }
@@ -148,7 +199,9 @@ void append_slice(std::string& line, const Slice& slice) {
     append_points(line, slice.contours[i].points);
   }
   line += ']';
-  append_labels(line, slice.contours);
+  append_texts(line, "labels", slice.contours, &Contour::label);
+  append_texts(line, "sources", slice.contours, &Contour::source);
+  append_places(line, slice.contours);
   line += '}';
 }
 
@@ -159,6 +212,12 @@ void write_slices_json(std::ostream& out, std::span<const Slice> slices) {
     line += '\n';
     out << line;
   }
+}
+
+void write_stack_json(std::ostream& out, const Stack& stack) {
+  std::string line;
+  if (append_stack_line(line, stack)) out << line << '\n';
+  write_slices_json(out, stack.slices);
 }
 
 const char* name(Edit::Kind kind) {

@@ -169,6 +169,38 @@ InputError too_few_slices(const Region* only) {
   return InputError(std::vector{defect});
 }
 
+void SlabVolume::add(const Region& region) {
+  const double area = loft::area(region);
+  if (!is_first_) {
+    const double gap = region.z - z_;
+    // The first slice is as thick below as above.
+    sum_ += (is_second_ ? gap : gap / 2) * area_ + gap / 2 * area;
+    gap_ = gap;
+  }
+  is_second_ = is_first_;
+  is_first_ = false;
+  z_ = region.z;
+  area_ = area;
+}
+
+double SlabVolume::volume() const {
+  if (is_second_) return area_ * alone_;
+  return sum_ + gap_ / 2 * area_;
+}
+
+Region extended(const Region& end, double half_gap) {
+  Region region = end;
+  region.z = end.z + half_gap;
+  for (Origin& origin : region.origins)
+    origin = {VertexKind::steiner, end.slice, Origin::none, Origin::none};
+  region.line_vertices = {};
+  region.line_starts = {};
+  region.line_origins = {};
+  region.points.resize(end.loop_points().size());
+  region.origins.resize(region.points.size());
+  return region;
+}
+
 Region beyond(const Region& end, const Region& before) {
   Region region;
   region.z = end.z + (end.z - before.z);

@@ -48,6 +48,28 @@ struct Height {
 /// that has, or null.
 [[nodiscard]] InputError too_few_slices(const Region* only);
 
+/// Of each slice its area times its thickness, half the gap to either neighbour: the ends are
+/// continued by half their one gap, a slice that is alone by half of `alone` either way.
+class SlabVolume {
+ public:
+  explicit SlabVolume(double alone) : alone_(alone) {}
+  /// From the lowest upwards; empty ones, too.
+  void add(const Region& region);
+  [[nodiscard]] double volume() const;
+
+ private:
+  double alone_;
+  double sum_ = 0;   // but for the upper half of the last slice
+  double z_ = 0;     // of the last slice
+  double gap_ = 0;   // below it
+  double area_ = 0;  // of it
+  bool is_first_ = true;
+  bool is_second_ = false;
+};
+
+/// For Cap::extend: the end of a stack half a gap further out.
+[[nodiscard]] Region extended(const Region& end, double half_gap);
+
 /// For Cap::dome: an empty region one gap beyond the end of a stack, into which it rounds off.
 /// `before` is the region next to the last one.
 [[nodiscard]] Region beyond(const Region& end, const Region& before);

@@ -16,6 +16,16 @@ std::vector<Segment> boundary(const Region& region) {
   return edges;
 }
 
+double area(const Region& region) {
+  if (region.is_empty()) return 0;
+  const cdt::Point origin = region.points.front();
+  double sum = 0;
+  for (const Segment& edge : boundary(region))
+    sum += (edge[0].x - origin.x) * (edge[1].y - origin.y) -
+           (edge[0].y - origin.y) * (edge[1].x - origin.x);
+  return sum / 2;
+}
+
 bool is_same_in_slice(const Region& a, const Region& b) {
   const auto is_same = [](const Origin& p, const Origin& q) { return is_same_in_slice(p, q); };
   return a.points == b.points && a.loop_vertices == b.loop_vertices &&

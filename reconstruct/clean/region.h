@@ -59,6 +59,9 @@ struct Region {
 /// The edges of all loops, in their order, the region on their left.
 [[nodiscard]] std::vector<Segment> boundary(const Region& region);
 
+/// What is inside the loops; negative if that is outside of them.
+[[nodiscard]] double area(const Region& region);
+
 /// Whether two regions are the same in their slices, whichever these are.
 [[nodiscard]] bool is_same_in_slice(const Region& a, const Region& b);
 

@@ -61,14 +61,4 @@ double perimeter(const Region& region) {
   return sum;
 }
 
-double area(const Region& region) {
-  if (region.is_empty()) return 0;
-  const Point origin = region.points.front();
-  double sum = 0;
-  for (const Segment& edge : boundary(region))
-    sum += (edge[0].x - origin.x) * (edge[1].y - origin.y) -
-           (edge[0].y - origin.y) * (edge[1].x - origin.x);
-  return sum / 2;
-}
-
 }  // namespace loft

@@ -28,7 +28,5 @@ struct Stretch {
 [[nodiscard]] double length(const Region& region, std::uint32_t loop);
 /// The length of all loops.
 [[nodiscard]] double perimeter(const Region& region);
-/// What is inside the loops; negative if that is outside of them.
-[[nodiscard]] double area(const Region& region);
 
 }  // namespace loft

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/bytes/file.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {
@@ -26,10 +26,10 @@ TEST(StackFile, FindsEverySliceAgain) {
   const Folder folder;
   const std::vector<std::filesystem::path> paths{folder.write("a.ndjson", first),
                                                  folder.write("b.ndjson", second)};
-  const std::vector<Slice> slices = read_slices(paths);
+  const std::vector<Slice> slices = read_stack(paths).slices;
   std::vector<Slice> seen;
   double last_share = 0;
-  const StackFile stack(paths, 2, [&](const Slice& slice, double share) {
+  const StackFile stack(paths, {.threads = 2}, [&](const Slice& slice, double share) {
     seen.push_back(slice);
     EXPECT_GE(share, last_share);
     last_share = share;
@@ -48,7 +48,7 @@ TEST(StackFile, FindsEverySliceAgain) {
 TEST(StackFile, NoticesThatTheFileChanges) {
   const Folder folder;
   const std::vector paths{folder.write("a.ndjson", first)};
-  const StackFile stack(paths, 1, [](const Slice&, double) {});
+  const StackFile stack(paths, {.threads = 1}, [](const Slice&, double) {});
   for (const std::string& text : {second, std::string(), "x" + first}) {
     static_cast<void>(folder.write("a.ndjson", text));
     EXPECT_THROW(static_cast<void>(stack.read(0)), FileError);
@@ -59,11 +59,11 @@ TEST(StackFile, RefusesWhatReadSlicesRefuses) {
   const Folder folder;
   const auto refuse = [](const std::filesystem::path& path) {
     const std::vector paths{path};
-    StackFile(paths, 1, [](const Slice&, double) {});
+    StackFile(paths, {.threads = 1}, [](const Slice&, double) {});
   };
   for (const auto& path : {folder.write("a.ndjson", "{}\n[]"), folder.write("b.json", "\n")}) {
     const std::string message = message_of<InputError>([&] { refuse(path); });
-    EXPECT_EQ(message, message_of<InputError>([&] { static_cast<void>(read_slices(path)); }));
+    EXPECT_EQ(message, message_of<InputError>([&] { static_cast<void>(read_stack(path)); }));
   }
   const auto unknown = folder.write("a.svg", second);
   EXPECT_THROW(refuse(unknown), UnknownFormat);

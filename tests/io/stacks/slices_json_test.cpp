@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/bytes/file.h"
-#include "io/slices.h"
+#include "io/stack.h"
 #include "reconstruct/defect.h"
 #include "tests/io/shapes.h"
 
@@ -170,18 +170,18 @@ TEST(Slices, ChoosesTheReaderByExtension) {
   const Folder folder;
   const std::string text = "{\"z\":1,\"contours\":[]}\n";
   for (const char* name : {"a.ndjson", "b.jsonl", "c.json", "D.NDJSON"}) {
-    EXPECT_EQ(read_slices(folder.write(name, text)).size(), 1U) << name;
+    EXPECT_EQ(read_stack(folder.write(name, text)).slices.size(), 1U) << name;
   }
   const auto unknown = folder.write("stack.dcm", text);
   EXPECT_NE(
-      message_of<UnknownFormat>([&] { static_cast<void>(read_slices(unknown)); }).find(".ndjson"),
+      message_of<UnknownFormat>([&] { static_cast<void>(read_stack(unknown)); }).find(".ndjson"),
       std::string::npos);
 }
 
 TEST(Slices, NamesAFileThatIsNotThere) {
   const Folder folder;
   const auto path = folder / "none.ndjson";
-  EXPECT_EQ(message_of<FileError>([&] { static_cast<void>(read_slices(path)); }),
+  EXPECT_EQ(message_of<FileError>([&] { static_cast<void>(read_stack(path)); }),
             "cannot read " + path.string() + ": No such file or directory");
 }
 
@@ -190,7 +190,7 @@ TEST(Slices, GathersTheProblemsOfAllFiles) {
   const std::vector<std::filesystem::path> paths{folder.write("a.ndjson", "x"),
                                                  folder.write("b.ndjson", "")};
   const std::string message =
-      message_of<InputError>([&] { static_cast<void>(read_slices(paths)); });
+      message_of<InputError>([&] { static_cast<void>(read_stack(paths)); });
   EXPECT_NE(message.find("a.ndjson:1: slice 0 broken JSON"), std::string::npos) << message;
   EXPECT_NE(message.find("b.ndjson: no slices"), std::string::npos) << message;
 }
