@@ -39,12 +39,13 @@ class Cut {
       const std::uint32_t next = corners[(i + 1) % 3];
       const std::uint32_t last = corners[(i + 2) % 3];
       if (is_above(apex) == is_above(next) || is_above(apex) == is_above(last)) continue;
-      // Seen from outside, with what is above on top, the inside is behind, on the left of a way
-      // from right to left: in at the edge behind an upper apex, out at the one before it.
+      // Seen from outside, with what is above on top, the way with the inside on its left goes from
+      // left to right; the edge behind a corner is on the left of the one before it where that is
+      // the upper one.
       if (is_above(apex)) {
-        steps_.push_back({{last, apex}, {next, apex}});
+        steps_.push_back({{next, apex}, {last, apex}});
       } else {
-        steps_.push_back({{apex, next}, {apex, last}});
+        steps_.push_back({{apex, last}, {apex, next}});
       }
     }
   }

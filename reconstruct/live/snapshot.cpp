@@ -14,17 +14,6 @@ double twice_area(cdt::Point a, cdt::Point b, cdt::Point c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-double area(const Region& region) {
-  double sum = 0;
-  for (std::size_t l = 0; l < region.loop_count(); ++l) {
-    const auto loop = region.loop(l);
-    const cdt::Point first = region.points[loop[0]];
-    for (std::size_t k = 1; k + 1 < loop.size(); ++k)
-      sum += twice_area(first, region.points[loop[k]], region.points[loop[k + 1]]);
-  }
-  return sum / 2;
-}
-
 }  // namespace
 
 double volume(const Region& lower, const Region& upper, const TileSet& tiles) {
