@@ -64,7 +64,7 @@ struct Description {
 };
 
 Description description(const std::vector<Slice>& slices, const Options& options) {
-  const auto [surface, repairs, slabs] = reconstruct(slices, options);
+  const auto [surface, repairs, slabs, volume] = reconstruct(slices, options);
   Description result{to_mesh(surface), {}, {}, {}, {}};
   for (const auto v : surface.vertices()) result.origins.push_back(surface.data(v).origin);
   for (const auto f : surface.faces())
