@@ -24,19 +24,6 @@ Region clean_slice(const Slice& slice, std::vector<Defect>& repairs, Fill fill =
   return clean(sources, slice.z, {fill}, repairs);
 }
 
-double area(const Region& region) {
-  double twice = 0;
-  for (std::size_t i = 0; i < region.loop_count(); ++i) {
-    const auto loop = region.loop(i);
-    for (std::size_t k = 0; k < loop.size(); ++k) {
-      const Point a = region.points[loop[k]];
-      const Point b = region.points[loop[(k + 1) % loop.size()]];
-      twice += a.x * b.y - a.y * b.x;
-    }
-  }
-  return twice / 2;
-}
-
 std::vector<DefectKind> kinds(const std::vector<Defect>& repairs) {
   std::vector<DefectKind> found;
   for (const Defect& defect : repairs) found.push_back(defect.kind);
