@@ -11,7 +11,7 @@ endif()
 # OpenMesh is in our headers; static libraries cannot say what else they need.
 set(loft_requires "openmesh")
 if(NOT BUILD_SHARED_LIBS)
-  string(APPEND loft_requires ", tbb, tinygltf, sqlite3 >= 3.37")
+  string(APPEND loft_requires ", tbb, tinygltf, sqlite3 >= 3.37, zlib")
 endif()
 file(CONFIGURE OUTPUT loft.pc @ONLY CONTENT [[
 prefix=@loft_prefix@

@@ -29,7 +29,9 @@ reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction}              
 
 io-values     io/version                     reconstruct
 bytes         io/bytes/*                     io-values
-stacks        io/stacks/*                    bytes
+read-options  io/stacks/read_options        io-values
+volumes       io/volumes/*                   bytes read-options
+stacks        io/stacks/*                    volumes
 meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes

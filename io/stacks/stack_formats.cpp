@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 
+#include "io/stacks/nifti.h"
 #include "io/stacks/slices_json.h"
 #include "io/stacks/stack_format.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::array formats{
     StackFormat{"NDJSON", ".ndjson .jsonl .json", read_ndjson},
+    StackFormat{"NIfTI", ".nii .nii.gz .hdr", read_nifti, begins_like_nifti},
 };
 
 struct LaterFormat {
