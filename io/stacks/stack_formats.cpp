@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 
+#include "io/stacks/dicom.h"
 #include "io/stacks/slices_json.h"
 #include "io/stacks/stack_format.h"
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::array formats{
     StackFormat{"NDJSON", ".ndjson .jsonl .json", read_ndjson},
+    StackFormat{"DICOM", ".dcm .dicom", read_dicom, begins_like_dicom},
 };
 
 struct LaterFormat {
