@@ -3,6 +3,7 @@
 #include <array>
 #include <cctype>
 
+#include "io/stacks/dicom.h"
 #include "io/stacks/nifti.h"
 #include "io/stacks/slices_json.h"
 #include "io/stacks/stack_format.h"
@@ -14,6 +15,7 @@ namespace {
 constexpr std::array formats{
     StackFormat{"NDJSON", ".ndjson .jsonl .json", read_ndjson},
     StackFormat{"NIfTI", ".nii .nii.gz .hdr", read_nifti, begins_like_nifti},
+    StackFormat{"DICOM", ".dcm .dicom", read_dicom, begins_like_dicom},
 };
 
 struct LaterFormat {
