@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/text_reader.h"
 #include "io/stacks/edge_loops.h"
@@ -24,6 +25,19 @@ class PlaneReader {
       : text_(without_mark(text), name), name_(name), size_(text.size()) {}
 
   TextReader& text() { return text_; }
+
+  /// Reads all of the file; what stops `read_planes` is listed with what was noted before.
+  template <class ReadPlanes>
+  void read(const ReadPlanes& read_planes) {
+    try {
+      read_planes();
+      if (text_.next_line())
+        text_.fail("expected the end of the file, found " + in_quotes(text_.rest()));
+    } catch (const InputError& error) {
+      problems_.add(error.what());
+    }
+    problems_.raise(name_);
+  }
 
   /// A count of things that take so many letters each, at least.
   std::size_t count(std::string_view what, std::size_t letters = 2) {
@@ -65,22 +79,24 @@ class PlaneReader {
     return result;
   }
 
-  void end() {
-    const auto more = text_.next_line() ? text_.word() : std::nullopt;
-    if (more) text_.fail("expected the end of the file, found " + in_quotes(*more));
-  }
-
  private:
+  /// A bad one is noted, and is 0 until all is read.
   double coordinate(std::string_view what) {
-    const double value = text_.any_number(what);
-    if (!admitted::slice.admits(value))
+    const std::string_view word = text_.any_word(what);
+    try {
+      const double value = text_.to_number(word, what);
+      if (admitted::slice.admits(value)) return value;
       text_.fail(std::string(what) + ": " + why_not_admitted(value, admitted::slice));
-    return value;
+    } catch (const InputError& error) {
+      problems_.add(error.what());
+    }
+    return 0;
   }
 
   TextReader text_;
   std::string_view name_;
   std::size_t size_;
+  Problems problems_;
 };
 
 std::string source(std::size_t plane, std::size_t contour) {
@@ -180,13 +196,14 @@ ContourPlane read_contour_plane(PlaneReader& in, std::size_t plane, std::size_t&
 
 Stack read_csl(const StackInput& input, const ReadOptions&) {
   PlaneReader in(input.bytes, input.name);
-  const std::string_view magic = in.text().any_word("the word CSLC");
-  if (magic != "CSLC") in.text().fail("expected 'CSLC', found " + in_quotes(magic));
-  const std::size_t count = in.count("a count of planes");
-  static_cast<void>(in.count("a count of materials"));
   std::vector<ContourPlane> planes;
-  for (std::size_t i = 0; i < count; ++i) planes.push_back(read_csl_plane(in, i));
-  in.end();
+  in.read([&] {
+    const std::string_view magic = in.text().any_word("the word CSLC");
+    if (magic != "CSLC") in.text().fail("expected 'CSLC', found " + in_quotes(magic));
+    const std::size_t count = in.count("a count of planes");
+    static_cast<void>(in.count("a count of materials"));
+    for (std::size_t i = 0; i < count; ++i) planes.push_back(read_csl_plane(in, i));
+  });
   return stack_of_planes(std::move(planes), 0, input.name);
 }
 
@@ -194,11 +211,12 @@ bool begins_like_csl(std::string_view bytes) { return without_mark(bytes).starts
 
 Stack read_contour(const StackInput& input, const ReadOptions&) {
   PlaneReader in(input.bytes, input.name);
-  const std::size_t count = in.count("a count of planes");
   std::vector<ContourPlane> planes;
   std::size_t open_lines = 0;
-  for (std::size_t i = 0; i < count; ++i) planes.push_back(read_contour_plane(in, i, open_lines));
-  in.end();
+  in.read([&] {
+    const std::size_t count = in.count("a count of planes");
+    for (std::size_t i = 0; i < count; ++i) planes.push_back(read_contour_plane(in, i, open_lines));
+  });
   return stack_of_planes(std::move(planes), open_lines, input.name);
 }
 

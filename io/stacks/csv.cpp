@@ -76,11 +76,11 @@ class CsvReader {
     style_ = find_csv_style("", line);
     if (is_header(line)) {
       const auto behind = std::pair(place_, number_);
-      const std::string_view second = next_line() ? line_ : std::string_view();
+      const std::string second(next_line() ? line_ : std::string_view());
       style_ = find_csv_style(line, second);
       std::tie(place_, number_) = behind;
       group_ = 0;
-      return take_header(line);
+      return take_header(line, csv_cells(second, style_).size());
     }
     std::tie(place_, number_) = whole;
     group_ = 0;
@@ -105,8 +105,14 @@ class CsvReader {
     });
   }
 
-  void take_header(std::string_view line) {
-    header_ = read_csv_header(csv_cells(line, style_));
+  /// `columns` are those of the first point: where there is one more, it is a name of the line that
+  /// the header does not count, as R writes it.
+  void take_header(std::string_view line, std::size_t columns) {
+    const std::vector<std::string_view> cells = csv_cells(line, style_);
+    header_ = read_csv_header(cells);
+    if (columns == cells.size() + 1)
+      for (auto& place : header_.place)
+        if (place) ++*place;
     if (has_place(header_)) return;
     std::string missing;
     for (const auto& [column, name] :

@@ -54,8 +54,19 @@ class ModelReader {
       : in_(bytes, name, std::endian::big), name_(name) {}
 
   ImodModel read() {
-    read_header();
-    while (!at_end_ && in_.left() > 0) read_chunk();
+    try {
+      read_header();
+      while (!at_end_ && in_.left() > 0) read_chunk();
+      require_end();
+    } catch (const InputError& error) {
+      problems_.add(error.what());  // what is behind cannot be told apart
+    }
+    problems_.raise(name_);
+    return std::move(model_);
+  }
+
+ private:
+  void require_end() {
     if (!at_end_)
       problems_.add(std::string(name_) + ": byte " + std::to_string(in_.place()) +
                     ": the file ends without its last mark, IEOF; it is cut off: copy it again");
@@ -63,11 +74,8 @@ class ModelReader {
       problems_.add(std::string(name_) + ": has " + std::to_string(model_.objects.size()) +
                     " objects instead of the " + std::to_string(wanted_objects_) +
                     " of its header; it is damaged");
-    problems_.raise(name_);
-    return std::move(model_);
   }
 
- private:
   void complain(std::size_t byte, const std::string& problem) {
     problems_.add(std::string(name_) + ": byte " + std::to_string(byte) + ": " + problem);
   }

@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/text_reader.h"
 #include "io/stacks/stack_builder.h"
@@ -16,15 +17,20 @@ namespace {
 class NuagesReader {
  public:
   NuagesReader(std::string_view text, std::string_view name)
-      : text_(without_mark(text), name), builder_(name) {
+      : text_(without_mark(text), name), name_(name), builder_(name) {
     text_.set_comments();
   }
 
   Stack read() {
-    expect('s');
-    const std::int64_t sections = count("a count of sections");
-    for (std::int64_t i = 0; i < sections; ++i) read_section(i);
-    if (text_.next_line()) text_.fail("expected the end of the file after the last section");
+    try {
+      expect('s');
+      const std::int64_t sections = count("a count of sections");
+      for (std::int64_t i = 0; i < sections; ++i) read_section(i);
+      if (text_.next_line()) text_.fail("expected the end of the file after the last section");
+    } catch (const InputError& error) {
+      problems_.add(error.what());
+    }
+    problems_.raise(name_);
     Stack stack;
     stack.fill = Fill::even_odd;
     builder_.finish(stack, "a contour has three points or more");
@@ -48,11 +54,16 @@ class NuagesReader {
     return number;
   }
 
+  /// A bad one is noted, and is 0 until all is read.
   double coordinate(std::string_view word, std::string_view what) {
-    const double value = text_.to_number(word, what);
-    if (!admitted::slice.admits(value))
+    try {
+      const double value = text_.to_number(word, what);
+      if (admitted::slice.admits(value)) return value;
       text_.fail(std::string(what) + ": " + why_not_admitted(value, admitted::slice));
-    return value;
+    } catch (const InputError& error) {
+      problems_.add(error.what());
+    }
+    return 0;
   }
 
   void read_section(std::int64_t section) {
@@ -86,6 +97,8 @@ class NuagesReader {
   }
 
   TextReader text_;
+  std::string_view name_;
+  Problems problems_;
   StackBuilder builder_;
 };
 

@@ -66,6 +66,12 @@ TEST(Csv, IsNotPartedByRoundingOfHeights) {
   EXPECT_EQ(stack.slices[1].z, 38);
 }
 
+TEST(Csv, TakesNamesOfLinesThatTheHeaderDoesNotCount) {
+  const Stack stack = read("\"x\" \"y\" \"z\"\n\"1\" 0 0 1.5\n\"2\" 4.5 0 1.5\n\"3\" 0 3 1.5\n");
+  EXPECT_EQ(stack.slices.at(0).z, 1.5);
+  EXPECT_EQ(stack.slices[0].contours.at(0).points, triangle);
+}
+
 TEST(Csv, SaysThatItTookColumnsByOrder) {
   const Stack stack = read("0 0 1 7 a\n4 0 1 7 a\n0 3 1 7 a\n");
   EXPECT_EQ(stack.slices.at(0).contours.at(0).label, "a");
