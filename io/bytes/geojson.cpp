@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -290,8 +291,8 @@ class GeoJsonReader {
     for (; json.next_item(); ++count) {
       if (count < coordinates.size()) {
         coordinates[count] = read_coordinate(json, place);
-      } else if (count == 2 && json.peek() == JsonKind::number) {
-        shape.heights.push_back(json.number());
+      } else if (count == 2) {
+        read_height(json, shape);
       } else {
         json.skip();
       }
@@ -300,6 +301,15 @@ class GeoJsonReader {
       complain(place(), "has " + std::to_string(count) + " coordinates instead of [x, y]");
     }
     shape.points.push_back({coordinates[0], coordinates[1]});
+  }
+
+  /// Whoever wants heights complains of those that are none.
+  static void read_height(JsonReader& json, GeoShape& shape) {
+    const JsonKind kind = json.peek();
+    if (kind == JsonKind::number) return shape.heights.push_back(json.number());
+    json.skip();
+    if (kind == JsonKind::not_finite)
+      shape.heights.push_back(std::numeric_limits<double>::quiet_NaN());
   }
 
   template <class Place>

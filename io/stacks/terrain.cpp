@@ -103,8 +103,8 @@ class TerrainReader {
     bool differ = false;
     for (const GeoShape& shape : json_.shapes) {
       if (shape.heights.empty()) return false;
-      for (const double z : shape.heights) differ = differ || z != first.value_or(z);
       first = first.value_or(shape.heights.front());
+      for (const double z : shape.heights) differ = differ || z != *first;
     }
     return differ;
   }
@@ -153,23 +153,27 @@ class TerrainReader {
     if (property)
       for (const GeoFeature& one : json_.features) of_feature.push_back(height_in(one, *property));
     for (GeoShape& shape : json_.shapes) {
+      for (const cdt::Point& point : shape.points)
+        if (!check(shape, point.x, "x") || !check(shape, point.y, "y")) break;
       if (shape.kind == GeoKind::point) {
         builder_.skip(label(shape), "point");
       } else if (!property) {
+        const auto is_good = [&](double z) { return check(shape, z, "height"); };
+        if (!std::ranges::all_of(shape.heights, is_good)) continue;
         const auto [low, high] = std::ranges::minmax(shape.heights);
-        if (check(shape, low) && check(shape, high)) raised_.push_back({&shape, low, high});
+        raised_.push_back({&shape, low, high});
       } else if (const auto z = of_feature[shape.feature]) {
-        if (check(shape, *z)) raised_.push_back({&shape, *z, *z});
+        if (check(shape, *z, "height")) raised_.push_back({&shape, *z, *z});
       } else {
         builder_.skip(label(shape), "line without a height");
       }
     }
   }
 
-  bool check(const GeoShape& shape, double z) {
-    if (admitted::slice.admits(z)) return true;
-    problems_.add(std::string(name_) + ": " + source(shape) +
-                  ": height: " + why_not_admitted(z, admitted::slice));
+  bool check(const GeoShape& shape, double value, const char* what) {
+    if (admitted::slice.admits(value)) return true;
+    problems_.add(std::string(name_) + ": " + source(shape) + ": " + what + ": " +
+                  why_not_admitted(value, admitted::slice));
     return false;
   }
 
@@ -256,9 +260,11 @@ class TerrainReader {
   void add_lines(std::vector<Isoline> lines) {
     const auto is_open = [](const Isoline& line) { return !line.is_closed; };
     if (std::ranges::any_of(lines, is_open)) join_isolines(lines);
-    if (options_.open_lines == OpenLines::close_along_border)
-      return add_slices(close_along_border(lines, name_));
     const auto open = static_cast<std::size_t>(std::ranges::count_if(lines, is_open));
+    if (options_.open_lines == OpenLines::close_along_border) {
+      stack_.notes.push_back(counted(open, "isoline") + " closed along the border of the data");
+      return add_slices(close_along_border(lines, name_));
+    }
     if (open > 0)
       throw InputError(std::string(name_) + ": " + std::to_string(open) + " of " +
                        counted(lines.size(), "isoline") + " " + (open == 1 ? "is" : "are") +

@@ -172,6 +172,7 @@ std::vector<std::string> slope() {
 TEST(Terrain, ClosesIsolinesRoundTheHigherSide) {
   const Stack stack = read(read_terrain, collection(slope()), closing());
   ASSERT_EQ(stack.slices.size(), 5U);
+  EXPECT_EQ(stack.notes.at(1), "5 isolines closed along the border of the data");
   const auto heights = [&](double x, double y) {
     std::vector<double> result;
     for (const Slice& slice : stack.slices)
