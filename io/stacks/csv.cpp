@@ -2,6 +2,7 @@
 #include "io/stacks/csv.h"
 
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "io/bytes/problems.h"
@@ -70,7 +71,8 @@ class CsvReader {
     const auto whole = std::pair(place_, number_);
     const std::string_view first = text_.substr(0, std::min(text_.find('\n'), text_.size()));
     std::string_view comment;
-    if (first.starts_with('#')) comment = first.substr(first.find_first_not_of("# \t"));
+    if (first.starts_with('#'))
+      comment = first.substr(std::min(first.find_first_not_of("# \t"), first.size()));
     if (!next_line()) throw InputError(std::string(name_) + ": no point in it");
     const std::string_view line = line_;
     style_ = find_csv_style("", line);
@@ -82,6 +84,7 @@ class CsvReader {
       group_ = 0;
       return take_header(line, csv_cells(second, style_).size());
     }
+    const std::size_t number = number_;
     std::tie(place_, number_) = whole;
     group_ = 0;
     if (!comment.empty() && !is_blank(comment)) {
@@ -91,7 +94,7 @@ class CsvReader {
         return;
       }
     }
-    take_order(csv_cells(line, style_).size());
+    take_order(csv_cells(line, style_).size(), number);
   }
 
   static bool has_place(const CsvHeader& header) {
@@ -118,15 +121,15 @@ class CsvReader {
     for (const auto& [column, name] :
          {std::pair(CsvColumn::x, "x"), std::pair(CsvColumn::y, "y"), std::pair(CsvColumn::z, "z")})
       if (!header_.of(column)) missing += (missing.empty() ? "'" : ", '") + std::string(name) + "'";
-    throw InputError(std::string(name_) + ":1: no column " + missing + " in the header " +
-                     in_quotes(line) +
+    throw InputError(std::string(name_) + ":" + std::to_string(number_) + ": no column " + missing +
+                     " in the header " + in_quotes(line) +
                      "; name the columns x, y, z and, if there are, contour, label");
   }
 
   /// No header: x y z contour label.
-  void take_order(std::size_t columns) {
+  void take_order(std::size_t columns, std::size_t line) {
     if (columns < 3)
-      throw InputError(std::string(name_) + ":" + std::to_string(number_ + 1) +
+      throw InputError(std::string(name_) + ":" + std::to_string(line) +
                        ": expected columns x y z [contour] [label], found " +
                        counted(columns, "column") +
                        "; parted by tabs, semicolons, commas or blanks");

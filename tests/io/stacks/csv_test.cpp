@@ -91,6 +91,7 @@ TEST(Csv, ListsWhatIsWrong) {
             "there are, contour, label");
   EXPECT_NE(problem("1 2\n3 4\n").find("found 2 columns"), std::string::npos);
   EXPECT_NE(problem("").find("no point in it"), std::string::npos);
+  EXPECT_NE(problem("#\n1 2\n").find("a.file:2: expected columns"), std::string::npos);
   EXPECT_NE(problem("x y z\n1 2 3\n").find("only 1 contour of 1 or 2 points"), std::string::npos);
   std::string many = "x y z\n";
   for (int i = 0; i < 50; ++i) many += "1 2 q\n";
