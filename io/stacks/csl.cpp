@@ -64,11 +64,11 @@ class PlaneReader {
   }
 
   /// a b c d.
-  Vec3 normal() {
-    Vec3 result{};
-    for (double& part : result) part = coordinate("a plane a b c d");
-    static_cast<void>(coordinate("a plane a b c d"));  // its sign differs from writer to writer
-    if (result == Vec3{}) text_.fail("a plane has the normal 0 0 0, which has no direction");
+  ContourPlane plane() {
+    ContourPlane result;
+    for (double& part : result.normal) part = coordinate("a plane a b c d");
+    result.offset = coordinate("a plane a b c d");
+    if (result.normal == Vec3{}) text_.fail("a plane has the normal 0 0 0, which has no direction");
     return result;
   }
 
@@ -125,7 +125,7 @@ ContourPlane read_csl_plane(PlaneReader& in, std::size_t plane) {
   static_cast<void>(in.text().any_word("the number of a plane"));
   const std::size_t vertex_count = in.count("a count of vertices", 6);
   const std::size_t components = in.count("a count of components");
-  ContourPlane result{in.normal(), {}};
+  ContourPlane result = in.plane();
   const std::vector<Vec3> vertices = in.vertices(vertex_count);
   std::vector<std::optional<std::size_t>> outlines;
   for (std::size_t i = 0; i < components; ++i) {
@@ -174,7 +174,7 @@ std::vector<std::uint32_t> take_numbers(Edges& edges) {
 }
 
 ContourPlane read_contour_plane(PlaneReader& in, std::size_t plane, std::size_t& open_lines) {
-  ContourPlane result{in.normal(), {}};
+  ContourPlane result = in.plane();
   const std::size_t vertex_count = in.count("a count of vertices", 6);
   const std::size_t edge_count = in.count("a count of edges", 8);
   const std::vector<Vec3> vertices = in.vertices(vertex_count);

@@ -30,6 +30,12 @@ Vec3 unit(const Vec3& v) {
   return result;
 }
 
+/// Where a plane is along its unit() by its offset, but for the sign of that.
+double height(const ContourPlane& plane) {
+  const double length = std::hypot(plane.normal[0], plane.normal[1], plane.normal[2]);
+  return (dot(unit(plane.normal), plane.normal) < 0 ? -1 : 1) * plane.offset / length;
+}
+
 /// Throws InputError where the planes are not parallel to the first.
 void require_parallel(const std::vector<ContourPlane>& planes, std::string_view name) {
   constexpr double tolerance = 0.01;  // degrees: normals are written with few digits
@@ -84,6 +90,22 @@ class Planes {
       for (const PlaneContour& contour : plane.contours) materials_.insert(contour.material);
   }
 
+  /// A slice for each plane that has no contours.
+  void add_empty(const std::vector<ContourPlane>& planes) {
+    double wrong_as_it_is = 0;
+    double wrong_if_turned = 0;
+    for (const ContourPlane& plane : planes)
+      for (const PlaneContour& contour : plane.contours) {
+        if (contour.points.empty()) continue;
+        const double z = along(2, contour.points.front());
+        wrong_as_it_is += std::abs(height(plane) - z);
+        wrong_if_turned += std::abs(-height(plane) - z);
+      }
+    for (const ContourPlane& plane : planes)
+      if (plane.contours.empty())
+        builder_.add_height(wrong_if_turned < wrong_as_it_is ? -height(plane) : height(plane));
+  }
+
   void add(const PlaneContour& from) {
     Contour contour{{}, label(from.material), from.source};
     double lowest = 0;
@@ -136,6 +158,7 @@ Stack stack_of_planes(std::vector<ContourPlane> planes, std::size_t open_lines,
   if (planes.empty()) throw InputError(std::string(name) + ": no plane in it");
   require_parallel(planes, name);
   Planes result(planes, name);
+  result.add_empty(planes);
   for (const ContourPlane& plane : planes)
     for (const PlaneContour& contour : plane.contours) result.add(contour);
   return result.finish(open_lines);

@@ -93,6 +93,21 @@ TEST(Csl, RefusesPlanesThatAreNotParallelWithTheWorstAngle) {
             "1; a stack has parallel slices: keep those of one direction");
 }
 
+TEST(Csl, KeepsEmptyPlanesWhicheverSignTheirOffsetsHave) {
+  for (const std::string sign : {"", "-"}) {
+    const auto plane = [&](const std::string& z, const std::string& normal, bool is_turned) {
+      return "1 3 1 " + normal + (is_turned == sign.empty() ? " -" : " ") + z + "\n0 0 " + z +
+             "\n1 0 " + z + "\n0 1 " + z + "\n3 1 0 1 2\n";
+    };
+    const Stack stack =
+        read(read_csl, "CSLC 4 2\n" + plane("1", "0 0 1", false) + "2 0 0 0 0 2 " + sign + "4\n" +
+                           plane("3", "0 0 -1", true) + plane("4", "0 0 1", false));
+    ASSERT_EQ(stack.slices.size(), 4U) << sign;
+    EXPECT_EQ(stack.slices[1].z, 2);
+    EXPECT_TRUE(stack.slices[1].contours.empty());
+  }
+}
+
 TEST(Csl, LeavesOutContoursOffTheirPlane) {
   const Stack stack = read(read_csl,
                            "CSLC 3 2 1 3 1 0 0 1 0\n0 0 0\n1 0 0\n0 1 0\n3 1 0 1 2\n"
