@@ -11,7 +11,10 @@ endif()
 # OpenMesh is in our headers; static libraries cannot say what else they need.
 set(loft_requires "openmesh")
 if(NOT BUILD_SHARED_LIBS)
-  string(APPEND loft_requires ", tbb, tinygltf, sqlite3 >= 3.37")
+  string(APPEND loft_requires ", tbb, tinygltf, sqlite3 >= 3.37, zlib")
+  if(LOFT_DICOM)
+    set(loft_dicom " -ldcmdata -loflog -lofstd")  # dcmtk.pc would link all of DCMTK
+  endif()
 endif()
 file(CONFIGURE OUTPUT loft.pc @ONLY CONTENT [[
 prefix=@loft_prefix@
@@ -22,7 +25,7 @@ Name: loft
 Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
 Requires: @loft_requires@
-Libs: -L${libdir} -lloft-io -lloft-reconstruct -lloft-mesh -lloft-cdt
+Libs: -L${libdir} -lloft-io -lloft-reconstruct -lloft-mesh -lloft-cdt@loft_dicom@
 Cflags: -I${includedir}/loft -ffp-contract=off
 ]])
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/loft.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

@@ -29,7 +29,9 @@ reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction}              
 
 io-values     io/version                     reconstruct
 bytes         io/bytes/*                     io-values
-stacks        io/stacks/*                    bytes
+read-options  io/stacks/read_options        io-values
+volumes       io/volumes/*                   bytes read-options
+stacks        io/stacks/*                    volumes
 meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes
@@ -121,7 +123,7 @@ offenders=$(
   posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
   allow 'cdt mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
-  allow io "$posix|tiny_gltf\.h|sqlite3\.h"
+  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h"
   allow app "$posix|CLI/.*|httplib\.h|nlohmann/.*"
   forbid 'cdt mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'

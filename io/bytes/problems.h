@@ -20,6 +20,8 @@ class Problems {
     text_ += problem;
   }
 
+  [[nodiscard]] bool is_empty() const { return count_ == 0; }
+
   /// Throws InputError if there are any. `name` is that of the file.
   void raise(std::string_view name) const {
     if (count_ == 0) return;

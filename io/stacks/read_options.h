@@ -37,6 +37,9 @@ struct ReadOptions {
   /// positive.
   std::optional<Vec3> spacing = {};
   Outline outline = Outline::iso_lines;
+  /// Value that pixels inside have at least, for images of grey; none: values are labels, or shares
+  /// from 0 to 1 of which half is inside.
+  std::optional<double> level = {};
   OpenLines open_lines = OpenLines::refuse;  ///< of isolines
   std::string z_property = {};               ///< that heights are in; empty: a name that is usual
   std::string alignment = {};  ///< which of a file's own alignments of sections; empty: its current

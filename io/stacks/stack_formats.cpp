@@ -3,8 +3,17 @@
 #include <array>
 #include <cctype>
 
+#include "io/stacks/cli.h"
+#include "io/stacks/csl.h"
+#include "io/stacks/csv.h"
+#include "io/stacks/dicom.h"
+#include "io/stacks/imod.h"
+#include "io/stacks/jser.h"
+#include "io/stacks/nifti.h"
+#include "io/stacks/nuages.h"
 #include "io/stacks/slices_json.h"
 #include "io/stacks/stack_format.h"
+#include "io/stacks/terrain.h"
 
 namespace loft::io {
 
@@ -12,6 +21,16 @@ namespace {
 
 constexpr std::array formats{
     StackFormat{"NDJSON", ".ndjson .jsonl .json", read_ndjson},
+    StackFormat{"NIfTI", ".nii .nii.gz .hdr", read_nifti, begins_like_nifti},
+    StackFormat{"DICOM", ".dcm .dicom", read_dicom, begins_like_dicom},
+    StackFormat{"CLI", ".cli", read_cli, begins_like_cli},
+    StackFormat{"IMOD", ".mod .imod", read_imod, begins_like_imod},
+    StackFormat{"PyReconstruct", ".jser", read_jser},
+    StackFormat{"GeoJSON", ".geojson", read_terrain, begins_like_terrain},
+    StackFormat{"CSL", ".csl", read_csl, begins_like_csl},
+    StackFormat{"contour", ".contour", read_contour},
+    StackFormat{"Nuages", ".cnt", read_nuages},
+    StackFormat{"CSV", ".csv .tsv .txt .xyz", read_csv},
 };
 
 struct LaterFormat {

@@ -20,8 +20,14 @@
 #include "io/meshes/stl.h"
 #include "io/planar/polylines_geojson.h"
 #include "io/planar/polylines_text.h"
+#include "io/stacks/cli.h"
+#include "io/stacks/csl.h"
+#include "io/stacks/csv.h"
 #include "io/stacks/edit.h"
+#include "io/stacks/jser.h"
+#include "io/stacks/nuages.h"
 #include "io/stacks/slices_json.h"
+#include "io/stacks/terrain.h"
 #include "mesh/admitted.h"
 #include "mesh/check.h"
 #include "mesh/measure.h"
@@ -174,6 +180,39 @@ TEST(Doors, LinesOfNumbersBeyondDoubleAreRefused) {
     std::istringstream in(lines[1]);
     expect_named(refusal([&] { static_cast<void>(io::read_slices_json(in, "a.ndjson")); }),
                  "a.ndjson:1: slice 0 (z = 1) contour 0 point 1", 0);
+  }
+}
+
+TEST(Doors, FilesOfStacksRefuseNumbersWithTheirPlaces) {
+  struct Door {
+    Stack (*read)(const io::StackInput&, const io::ReadOptions&);
+    const char* before;
+    const char* after;
+    const char* place;
+  };
+  for (const Door& door :
+       {Door{io::read_csv, "x y z\n0 0 1\n1 ", " 1\n0 1 1\n", "a.file:3: y"},
+        Door{io::read_nuages, "S 1\nv 3 z 0\n{\n0 0\n1 0\n0 ", "\n}\n", "a.file:6: y"},
+        Door{io::read_csl, "CSLC\n1 2\n1 3 1 0 0 1 0\n0 0 0\n1 0 ", "\n0 1 0\n3 1 0 1 2\n",
+             "a.file:5: a coordinate"},
+        Door{io::read_contour, "1\n0 0 1 0\n3 3\n0 0 0\n1 0 0\n0 ",
+             " 0\n0 1 1 0\n1 2 1 0\n2 0 1 0\n", "a.file:6: a coordinate"},
+        Door{io::read_cli,
+             "$$HEADERSTART\n$$UNITS/1\n$$HEADEREND\n$$LAYER/0\n$$POLYLINE/1,1,3,0,0,", ",0,0,1\n",
+             "a.file: line 5: "},
+        Door{io::read_jser, R"({"sections":[{"thickness":1,"contours":{"a":[[[0,1,0],[0,0,)",
+             R"(],[0,0,0],true,false,false]]}}]})", "a.file: section 0: 'a' trace 0: y"},
+        Door{io::read_terrain, R"({"type":"LineString","coordinates":[[0,0,1],[1,)",
+             R"(,2],[0,1,1],[0,0,1]]})", "a.file: "},
+        Door{io::read_terrain, R"({"type":"LineString","coordinates":[[0,0,1],[1,0,)",
+             R"(],[0,1,1],[0,0,1]]})", "a.file: geometry: height: "}}) {
+    for (const double bad : beyond(admitted::slice)) {
+      const std::string text = door.before + exact(bad) + door.after;
+      expect_named(refusal([&] {
+                     static_cast<void>(door.read({text, "a.file"}, {}));
+                   }),
+                   door.place, bad);
+    }
   }
 }
 

@@ -172,7 +172,7 @@ TEST(Slices, ChoosesTheReaderByExtension) {
   for (const char* name : {"a.ndjson", "b.jsonl", "c.json", "D.NDJSON"}) {
     EXPECT_EQ(read_stack(folder.write(name, text)).slices.size(), 1U) << name;
   }
-  const auto unknown = folder.write("stack.dcm", text);
+  const auto unknown = folder.write("stack.unknown", text);
   EXPECT_NE(
       message_of<UnknownFormat>([&] { static_cast<void>(read_stack(unknown)); }).find(".ndjson"),
       std::string::npos);

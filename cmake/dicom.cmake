@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: MIT
+# LOFT_DICOM: whether io reads DICOM. By default where DCMTK is found.
+find_package(DCMTK CONFIG QUIET)
+find_package(ZLIB QUIET)
+set(loft_has_dcmtk OFF)
+if(TARGET DCMTK::dcmdata AND TARGET ZLIB::ZLIB)
+  set(loft_has_dcmtk ON)
+endif()
+option(LOFT_DICOM "Read DICOM, RTSTRUCT and SEG; needs DCMTK" ${loft_has_dcmtk})
+if(LOFT_DICOM AND NOT loft_has_dcmtk)
+  message(WARNING "LOFT_DICOM is on, but there is no DCMTK: install libdcmtk-dev")
+  set(LOFT_DICOM OFF)
+endif()
+if(LOFT_DICOM)
+  message(STATUS "With DICOM, by DCMTK ${DCMTK_VERSION}")
+else()
+  message(STATUS "Without DICOM (RTSTRUCT, SEG): libdcmtk-dev is not installed, or LOFT_DICOM=OFF")
+endif()

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: MIT
+#include "io/stacks/planes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <utility>
+
+#include "io/stacks/stack_builder.h"
+#include "reconstruct/defect.h"
+
+namespace loft::io {
+
+namespace {
+
+double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vec3 cross(const Vec3& a, const Vec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Of length 1, its largest part positive. Precondition: finite, not 0.
+Vec3 unit(const Vec3& v) {
+  double largest = 0;
+  for (const double part : v)
+    if (std::abs(part) > std::abs(largest)) largest = part;
+  Vec3 result{v[0] / largest, v[1] / largest, v[2] / largest};
+  const double length = std::sqrt(dot(result, result));
+  for (double& part : result) part /= length;
+  return result;
+}
+
+/// Where a plane is along its unit() by its offset, but for the sign of that.
+double height(const ContourPlane& plane) {
+  const double length = std::hypot(plane.normal[0], plane.normal[1], plane.normal[2]);
+  return (dot(unit(plane.normal), plane.normal) < 0 ? -1 : 1) * plane.offset / length;
+}
+
+/// Throws InputError where the planes are not parallel to the first.
+void require_parallel(const std::vector<ContourPlane>& planes, std::string_view name) {
+  constexpr double tolerance = 0.01;  // degrees: normals are written with few digits
+  double worst = 0;
+  std::size_t plane = 0;
+  for (std::size_t i = 1; i < planes.size(); ++i) {
+    const Vec3 a = unit(planes[0].normal);
+    const Vec3 b = unit(planes[i].normal);
+    const Vec3 normal = cross(a, b);
+    const double angle =
+        std::atan2(std::sqrt(dot(normal, normal)), std::abs(dot(a, b))) * 180 / std::numbers::pi;
+    if (angle <= worst) continue;
+    worst = angle;
+    plane = i;
+  }
+  if (worst <= tolerance) return;
+  throw InputError(std::string(name) + ": its planes are not parallel: plane " +
+                   std::to_string(plane + 1) + " is turned by " +
+                   std::to_string(worst).substr(0, 5) +
+                   " degrees against plane 1; a stack has parallel slices: keep those of one "
+                   "direction");
+}
+
+/// Columns are the axes of the slices: x, y, and the normal.
+WorldFrame find_frame(const Vec3& normal) {
+  WorldFrame frame;
+  std::size_t axis = 0;
+  for (std::size_t i = 1; i < 3; ++i)
+    if (std::abs(normal[i]) > std::abs(normal[axis])) axis = i;
+  Vec3 x{};
+  x[(axis + 1) % 3] = 1;
+  Vec3 y{};
+  y[(axis + 2) % 3] = 1;
+  Vec3 z{};
+  z[axis] = 1;
+  if (normal != z) {
+    z = normal;
+    x = unit(cross(y, z));
+    y = cross(z, x);
+  }
+  for (std::size_t i = 0; i < 3; ++i) frame.rows[i] = {x[i], y[i], z[i], 0};
+  return frame;
+}
+
+class Planes {
+ public:
+  Planes(const std::vector<ContourPlane>& planes, std::string_view name)
+      : builder_(name), frame_(find_frame(unit(planes.front().normal))) {
+    for (const auto& row : frame_.rows)
+      for (const double part : row) is_turned_ = is_turned_ || (part != 0 && part != 1);
+    for (const ContourPlane& plane : planes)
+      for (const PlaneContour& contour : plane.contours) materials_.insert(contour.material);
+  }
+
+  /// A slice for each plane that has no contours.
+  void add_empty(const std::vector<ContourPlane>& planes) {
+    double wrong_as_it_is = 0;
+    double wrong_if_turned = 0;
+    for (const ContourPlane& plane : planes)
+      for (const PlaneContour& contour : plane.contours) {
+        if (contour.points.empty()) continue;
+        const double z = along(2, contour.points.front());
+        wrong_as_it_is += std::abs(height(plane) - z);
+        wrong_if_turned += std::abs(-height(plane) - z);
+      }
+    for (const ContourPlane& plane : planes)
+      if (plane.contours.empty())
+        builder_.add_height(wrong_if_turned < wrong_as_it_is ? -height(plane) : height(plane));
+  }
+
+  void add(const PlaneContour& from) {
+    Contour contour{{}, label(from.material), from.source};
+    double lowest = 0;
+    double highest = 0;
+    for (const Vec3& point : from.points) {
+      const double z = along(2, point);
+      lowest = contour.points.empty() ? z : std::min(lowest, z);
+      highest = contour.points.empty() ? z : std::max(highest, z);
+      contour.points.push_back({along(0, point), along(1, point)});
+      if (is_turned_) contour.places.push_back(point);
+    }
+    builder_.add(std::move(contour), lowest, highest);
+  }
+
+  Stack finish(std::size_t open_lines) {
+    Stack stack;
+    if (!frame_.is_identity()) stack.frame = frame_;
+    stack.fill = Fill::even_odd;
+    if (materials_.size() > 1)
+      for (const std::size_t material : materials_)
+        stack.labels.push_back({label(material), {}, std::to_string(material), "", {}});
+    builder_.skip("", "open line", open_lines);
+    builder_.finish(stack, "contours are closed, and lie in their planes");
+    return stack;
+  }
+
+ private:
+  [[nodiscard]] std::string label(std::size_t material) const {
+    return materials_.size() < 2 ? "" : "material " + std::to_string(material);
+  }
+  /// The part of a point along an axis of the slices; exact where that is an axis of space.
+  [[nodiscard]] double along(std::size_t axis, const Vec3& point) const {
+    double sum = 0;
+    for (std::size_t i = 0; i < 3; ++i)
+      if (frame_.rows[i][axis] == 1) return point[i];
+    for (std::size_t i = 0; i < 3; ++i) sum += frame_.rows[i][axis] * point[i];
+    return sum;
+  }
+
+  StackBuilder builder_;
+  WorldFrame frame_;
+  bool is_turned_ = false;
+  std::set<std::size_t> materials_;
+};
+
+}  // namespace
+
+Stack stack_of_planes(std::vector<ContourPlane> planes, std::size_t open_lines,
+                      std::string_view name) {
+  if (planes.empty()) throw InputError(std::string(name) + ": no plane in it");
+  require_parallel(planes, name);
+  Planes result(planes, name);
+  result.add_empty(planes);
+  for (const ContourPlane& plane : planes)
+    for (const PlaneContour& contour : plane.contours) result.add(contour);
+  return result.finish(open_lines);
+}
+
+}  // namespace loft::io

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <bit>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "io/stacks/read_options.h"
+#include "io/volumes/volume.h"
+
+namespace loft::io {
+
+/// How a pixel is written.
+enum class PixelType { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
+
+[[nodiscard]] std::uint64_t size_of(PixelType type);
+[[nodiscard]] bool is_real(PixelType type);
+
+/// Pixels as files have them, x first, then y, then z.
+struct RawPixels {
+  std::string_view bytes;  ///< exactly those of columns * rows * slices * layers pixels
+  PixelType type = PixelType::u8;
+  std::endian order = std::endian::little;
+  bool layers_first =
+      false;         ///< a pixel's layers side by side, else whole layers behind each other
+  double slope = 1;  ///< of values, by what is written
+  double intercept = 0;
+};
+
+/// The bytes that pixels of the volume's sizes take; none if 2^63 are not enough.
+[[nodiscard]] std::optional<std::uint64_t> byte_count(const Volume& volume, PixelType type);
+
+/// Makes them the volume's pixels; the bytes must outlive it.
+void set_pixels(Volume& volume, const RawPixels& pixels);
+
+/// Decides what the values are, once all else is there: the options' level counts, then pixels that
+/// are no whole numbers but from 0 to 1 are shares, of which half is inside; else they are labels.
+/// Cost: O(pixels) where `may_be_shares`, reading them all.
+void set_level(Volume& volume, const ReadOptions& options, bool may_be_shares);
+
+/// Appends to the volume's notes what its world is: `RAS`, `LPS`, ...
+void note_world(Volume& volume, std::string_view axes);
+
+}  // namespace loft::io

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Volumes in memory, and what their outlines must enclose.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <random>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "io/volumes/volume.h"
+#include "reconstruct/slice.h"
+
+namespace loft::io::testing {
+
+/// A volume of one layer with those pixels, x first.
+inline Volume volume_of(std::uint32_t columns, std::uint32_t rows, std::vector<double> pixels) {
+  Volume volume;
+  volume.name = "a.nii";
+  volume.columns = columns;
+  volume.rows = rows;
+  volume.slices = static_cast<std::uint32_t>(pixels.size() / columns / rows);
+  volume.read = [pixels = std::move(pixels)](std::uint32_t slice, std::uint32_t,
+                                             std::span<double> out) {
+    std::copy_n(&pixels[slice * out.size()], out.size(), out.begin());
+  };
+  return volume;
+}
+
+inline std::vector<double> random_pixels(std::size_t count, int labels, std::mt19937_64& random) {
+  std::vector<double> pixels(count);
+  for (double& pixel : pixels)
+    pixel = static_cast<double>(random() % static_cast<unsigned>(labels + 1));
+  return pixels;
+}
+
+/// Whether contours of a label enclose a place, by the even-odd rule.
+inline bool encloses(const Slice& slice, const std::string& label, const cdt::Point& place) {
+  bool is_inside = false;
+  for (const Contour& contour : slice.contours) {
+    if (contour.label != label) continue;
+    for (std::size_t i = 0; i < contour.points.size(); ++i) {
+      const cdt::Point& a = contour.points[i];
+      const cdt::Point& b = contour.points[(i + 1) % contour.points.size()];
+      if ((a.y > place.y) == (b.y > place.y)) continue;
+      if (place.x < a.x + (place.y - a.y) * (b.x - a.x) / (b.y - a.y)) is_inside = !is_inside;
+    }
+  }
+  return is_inside;
+}
+
+inline double area(const std::vector<cdt::Point>& points) {
+  double twice = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const cdt::Point& a = points[i];
+    const cdt::Point& b = points[(i + 1) % points.size()];
+    twice += a.x * b.y - b.x * a.y;
+  }
+  return twice / 2;
+}
+
+/// The area that a label's outlines enclose: those around holes turn the other way.
+inline double area(const Slice& slice, const std::string& label) {
+  double sum = 0;
+  for (const Contour& contour : slice.contours)
+    if (contour.label == label) sum += area(contour.points);
+  return sum;
+}
+
+}  // namespace loft::io::testing
