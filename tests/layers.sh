@@ -15,7 +15,7 @@ wings='
 cdt           cdt/*
 mesh          mesh/*                         cdt
 
-values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,origin,parallel,progress,slice,surface,usable}  mesh
+values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,origin,parallel,progress,slice,stack,surface,usable}  mesh
 moved         reconstruct/{check,measure,mesh}                                    values
 plane         reconstruct/plane/*            values
 clean         reconstruct/clean/*            plane
@@ -25,7 +25,7 @@ link          reconstruct/link/*             registration
 sew           reconstruct/sew/*              tile
 shape         reconstruct/shape/*            link sew
 live          reconstruct/live/*             shape
-reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction}                live
+reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction,world}                live
 
 io-values     io/version                     reconstruct
 bytes         io/bytes/*                     io-values
@@ -36,7 +36,7 @@ meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes
 session       io/session/*                   stacks
-io            io/{meshes,polylines,slices,stack_file,surfaces,triangulations}     gltf planar session
+io            io/{meshes,polylines,stack,stack_file,stack_writer,surfaces,triangulations}     gltf planar session
 
 words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,terminal,unit}  io
 capture       app/capture/*                  words
@@ -124,7 +124,7 @@ offenders=$(
   allow 'cdt mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
   allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h"
-  allow app "$posix|CLI/.*|httplib\.h|nlohmann/.*"
+  allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
   forbid 'cdt mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'
   forbid io 'chrono>'
