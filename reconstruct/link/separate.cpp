@@ -51,6 +51,8 @@ bool has_all(const std::vector<std::uint32_t>& parts) {
 std::vector<Piece> groups_of(const Region& lower, const Region& upper, const Piece& piece) {
   const Extract below(lower, piece.lower.loops, piece.is_solid);
   const Extract above(upper, piece.upper.loops, piece.is_solid);
+  // Loops that touch go around what is solid: one may bound several parts of a cavity.
+  if (!piece.is_solid && !(is_simple(below.region()) && is_simple(above.region()))) return {};
   const PartGraph graph = find_parts(below.region(), above.region());
   if (!has_all(graph.lower_part) || !has_all(graph.upper_part)) return {};
   const std::vector<std::uint32_t> group = group_parts(graph);

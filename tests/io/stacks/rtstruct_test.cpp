@@ -280,7 +280,7 @@ TEST(StructureSet, PlanesOfConstantXOrYAreTheSameSolidInTheWorld) {
     EXPECT_NEAR(measure(surface).volume, volume, 1e-9 * volume);
     const std::size_t upright = turn == 1 ? 1 : 0;  // where z went
     for (const auto v : surface.vertices()) {
-      const double height = surface.point(v)[static_cast<int>(upright)];
+      const double height = surface.point(v)[upright];
       EXPECT_GE(height, 0);
       EXPECT_LE(height, 12);
     }

@@ -124,5 +124,24 @@ TEST(Joins, EditsLeadToTheSameSurfaceAsTheWholeStack) {
   EXPECT_EQ(edits::fault_of_edits(fork_of_discs(2.2), 5, 16), "");
 }
 
+// Two holes that cross leave an island between them, which touches what goes round both: groups of
+// cavities had it without that, inside out.
+TEST(Separate, LeavesCavitiesThatTouchTogether) {
+  const std::vector<Slice> slices{
+      {0,
+       {{{{102, 137}, {160, -6}, {111, -73}, {93, -85}, {-32, -100}, {-148, 55}}, ""},
+        {{{-8, -88}, {13, -94}, {16, -91}}, ""},
+        {{{29, 101}, {32, 98}, {35, 101}}, ""},
+        {{{50, -79}, {120, -46}, {138, -27}}, ""}}},
+      {10,
+       {{{{120, 122}, {166, 24}, {138, -43}, {65, -94}, {-51, -97}, {-133, 91}}, ""},
+        {{{-5, -82}, {-2, -91}, {1, -91}}, ""},
+        {{{13, -91}, {16, -94}, {19, -91}}, ""},
+        {{{26, 82}, {86, -73}, {132, -40}}, ""},
+        {{{-14, -82}, {-5, -82}, {32, 107}, {29, 110}}, ""}}}};
+  for (const Fill fill : {Fill::even_odd, Fill::keyhole_aware})
+    EXPECT_EQ(solids::faults(reconstruct(slices, {.fill = fill}).surface), "");
+}
+
 }  // namespace
 }  // namespace loft
