@@ -7,10 +7,12 @@
 #include <functional>
 #include <iterator>
 #include <map>
+#include <string>
 #include <tuple>
 #include <utility>
 
 #include "io/stacks/edge_loops.h"
+#include "reconstruct/defect.h"
 
 namespace loft::io {
 
@@ -46,13 +48,19 @@ class Bands {
     for (const BandRing& ring : rings) add(ring);
   }
 
-  std::vector<Slice> sum() const {
+  std::vector<Slice> sum(std::string_view name) const {
     std::vector<Slice> slices;
     std::vector<Edge> outline;
+    std::size_t room = 10'000 + 100 * points_.size();
     for (const auto& [z, edges] : bands_) {  // from the top
       std::vector<Edge> both = edges;
       both.insert(both.end(), outline.begin(), outline.end());
       outline = odd_ones(std::move(both));
+      if (outline.size() > room)
+        throw InputError(std::string(name) + ": has bands at " + std::to_string(bands_.size()) +
+                         " heights, which make far more outlines than there are; do EMIN and EMAX "
+                         "mean the heights between which a band is?");
+      room -= outline.size();
       slices.push_back({z, loops(outline)});
     }
     std::ranges::reverse(slices);
@@ -76,7 +84,7 @@ class Bands {
 
   [[nodiscard]] std::vector<Contour> loops(const std::vector<Edge>& edges) const {
     std::vector<Contour> contours;
-    for (const auto& loop : join_edges(edges, points_.size()).loops) {
+    for (const auto& loop : join_edges(edges).loops) {
       Contour contour;
       for (const std::uint32_t v : loop) contour.points.push_back(points_[v]);
       contours.push_back(std::move(contour));
@@ -90,6 +98,8 @@ class Bands {
 
 }  // namespace
 
-std::vector<Slice> sum_bands(const std::vector<BandRing>& rings) { return Bands(rings).sum(); }
+std::vector<Slice> sum_bands(const std::vector<BandRing>& rings, std::string_view name) {
+  return Bands(rings).sum(name);
+}
 
 }  // namespace loft::io

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "cdt/point.h"
@@ -17,7 +17,9 @@ struct BandRing {
 
 /// The slices of a terrain that is drawn as bands: at each height the outlines of this band and all
 /// above it, as bands that meet share their edges, which fall away. Cost: O(n log n), and as much
-/// as comes out.
-[[nodiscard]] std::vector<Slice> sum_bands(const std::vector<BandRing>& rings);
+/// as comes out. Throws InputError that names `name` where that is more than a hundred times what
+/// goes in: no terrain is like that.
+[[nodiscard]] std::vector<Slice> sum_bands(const std::vector<BandRing>& rings,
+                                           std::string_view name);
 
 }  // namespace loft::io

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/stacks/csl.h"
 
-#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -161,31 +160,18 @@ std::map<std::size_t, Edges> read_edges(PlaneReader& in, std::size_t edge_count,
   return edges;
 }
 
-/// Numbers the vertices of edges anew, from 0; gives what they were.
-std::vector<std::uint32_t> take_numbers(Edges& edges) {
-  std::vector<std::uint32_t> used;
-  for (const auto& edge : edges) used.insert(used.end(), edge.begin(), edge.end());
-  std::ranges::sort(used);
-  used.erase(std::unique(used.begin(), used.end()), used.end());
-  for (auto& edge : edges)
-    for (std::uint32_t& end : edge)
-      end = static_cast<std::uint32_t>(std::ranges::lower_bound(used, end) - used.begin());
-  return used;
-}
-
 ContourPlane read_contour_plane(PlaneReader& in, std::size_t plane, std::size_t& open_lines) {
   ContourPlane result = in.plane();
   const std::size_t vertex_count = in.count("a count of vertices", 6);
   const std::size_t edge_count = in.count("a count of edges", 8);
   const std::vector<Vec3> vertices = in.vertices(vertex_count);
   for (auto& [material, edges] : read_edges(in, edge_count, vertices.size())) {
-    const std::vector<std::uint32_t> used = take_numbers(edges);
-    const EdgeLoops loops = join_edges(edges, used.size());
+    const EdgeLoops loops = join_edges(std::move(edges));
     open_lines += loops.open_lines;
     for (const auto& loop : loops.loops) {
       PlaneContour contour{{}, material, source(plane, result.contours.size())};
       contour.points.reserve(loop.size());
-      for (const std::uint32_t v : loop) contour.points.push_back(vertices[used[v]]);
+      for (const std::uint32_t v : loop) contour.points.push_back(vertices[v]);
       result.contours.push_back(std::move(contour));
     }
   }

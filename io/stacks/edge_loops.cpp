@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "io/stacks/edge_loops.h"
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -81,10 +82,26 @@ class Joiner {
   EdgeLoops result_;
 };
 
+/// Numbers the vertices of edges anew, from 0; gives what they were.
+std::vector<std::uint32_t> take_numbers(std::vector<Edge>& edges) {
+  std::vector<std::uint32_t> numbers;
+  for (const Edge& edge : edges) numbers.insert(numbers.end(), edge.begin(), edge.end());
+  std::ranges::sort(numbers);
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  for (Edge& edge : edges)
+    for (std::uint32_t& end : edge)
+      end = static_cast<std::uint32_t>(std::ranges::lower_bound(numbers, end) - numbers.begin());
+  return numbers;
+}
+
 }  // namespace
 
-EdgeLoops join_edges(std::span<const Edge> edges, std::size_t vertices) {
-  return Joiner(edges, vertices).join();
+EdgeLoops join_edges(std::vector<Edge> edges) {
+  const std::vector<std::uint32_t> numbers = take_numbers(edges);
+  EdgeLoops result = Joiner(edges, numbers.size()).join();
+  for (auto& loop : result.loops)
+    for (std::uint32_t& vertex : loop) vertex = numbers[vertex];
+  return result;
 }
 
 }  // namespace loft::io

@@ -16,8 +16,8 @@ struct EdgeLoops {
 };
 
 /// Joins edges, in any order and direction, to loops that meet themselves nowhere. Each begins with
-/// the first of its edges, in that edge's direction. Cost: O(n) for `vertices` and edges.
-[[nodiscard]] EdgeLoops join_edges(std::span<const std::array<std::uint32_t, 2>> edges,
-                                   std::size_t vertices);
+/// the first of its edges, in that edge's direction. Cost: O(n log n) for n edges, whichever
+/// numbers their vertices have.
+[[nodiscard]] EdgeLoops join_edges(std::vector<std::array<std::uint32_t, 2>> edges);
 
 }  // namespace loft::io

@@ -221,7 +221,7 @@ class TerrainReader {
       }
       rings.push_back({std::move(one.shape->points), level_.of(one.lowest)});
     }
-    add_slices(sum_bands(rings));
+    add_slices(sum_bands(rings, name_));
   }
 
   void add_slices(std::vector<Slice> slices) {

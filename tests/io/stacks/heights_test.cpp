@@ -80,18 +80,18 @@ TEST(StackBuilder, SaysWhatThereWasWhereNothingIsLeft) {
 using Loops = std::vector<std::vector<std::uint32_t>>;
 
 TEST(JoinEdges, MakesLoopsOfEdgesInAnyOrderAndDirection) {
-  const EdgeLoops result = join_edges({{{0, 1}, {3, 2}, {3, 0}, {1, 2}}}, 4);
+  const EdgeLoops result = join_edges({{{0, 1}, {3, 2}, {3, 0}, {1, 2}}});
   EXPECT_EQ(result.loops, (Loops{{0, 1, 2, 3}}));
   EXPECT_EQ(result.open_lines, 0U);
 }
 
 TEST(JoinEdges, PartsLoopsThatMeetInAVertex) {
-  const EdgeLoops result = join_edges({{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 2}, {2, 0}}}, 5);
+  const EdgeLoops result = join_edges({{{0, 1}, {1, 2}, {2, 3}, {3, 4}, {4, 2}, {2, 0}}});
   EXPECT_EQ(result.loops, (Loops{{2, 3, 4}, {0, 1, 2}}));
 }
 
 TEST(JoinEdges, CountsLinesThatEnd) {
-  const EdgeLoops result = join_edges({{{0, 1}, {1, 2}, {3, 4}, {4, 5}, {5, 3}}}, 6);
+  const EdgeLoops result = join_edges({{{0, 1}, {1, 2}, {3, 4}, {4, 5}, {5, 3}}});
   EXPECT_EQ(result.loops, (Loops{{3, 4, 5}}));
   EXPECT_EQ(result.open_lines, 1U);
 }

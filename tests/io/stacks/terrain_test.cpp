@@ -144,6 +144,17 @@ TEST(Terrain, SumsBandsFromTheirLowerHeights) {
   EXPECT_FALSE(is_inside(stack.slices[2], 1, 1));
 }
 
+TEST(Terrain, RefusesBandsThatAreNone) {
+  std::vector<std::string> features;
+  for (int i = 0; i < 1200; ++i) {
+    const std::string x = std::to_string(1000 * i);
+    features.push_back(feature("{\"EMIN\":" + std::to_string(i) + '}', "Polygon",
+                               "[[[" + x + ",0],[" + x + ",9],[" + x + ".5,0],[" + x + ",0]]]"));
+  }
+  EXPECT_NE(problem(collection(features)).find("a.file: has bands at 1200 heights"),
+            std::string::npos);
+}
+
 TEST(Terrain, RefusesOpenIsolinesWithTheirNumber) {
   EXPECT_EQ(problem(collection(
                 {square(elev(1), 0, 9), line(2, "[[0,0],[9,9]]"), line(3, "[[0,1],[8,9]]")})),
