@@ -32,6 +32,19 @@ for name in bunny vessels shells; do
   $loft check $out/${name}_smooth.ply --stack samples/data/$name.ndjson
 done
 
+echo "== From a segmentation: 41 organs in their colours, and their volumes"
+organs=samples/data/totalsegmentator_example_seg.nii.gz
+$loft reconstruct $organs -o $out/organs.glb -o $out/organs.ply --unit mm --cap extend --csv $out/organs.csv
+$loft check $out/organs.ply --stack $organs > $out/organs.txt
+tail -n 1 $out/organs.txt
+
+echo "== From a planning system, a file a structure"
+structures=samples/data/mim_7.0.3_four_rois.dcm
+if $loft info $structures; then  # Loft may have been built without DCMTK
+  $loft reconstruct $structures -o "$out/{label}.stl" -o $out/structures.glb
+  $loft check $out/structures.glb
+fi
+
 echo "== A program that uses the library"
 build/release/samples/surface_from_circles $out/vase.glb
 
@@ -40,7 +53,7 @@ cat << END
 Done. The skull is in
   $PWD/$out/skull.glb    for any glTF viewer: Blender, f3d, a browser
   $PWD/$out/skull.ply    with each vertex's slice, contour and point: MeshLab, ParaView
-The others lie beside it. Next, try
+The others lie beside it: $out/organs.glb has 41 organs, organs.csv their volumes. Next, try
   $loft info samples/data/skull.ndjson
   $loft reconstruct samples/data/skull.ndjson -o $out/skull.stl --smooth --cap dome --json
   $loft reconstruct samples/data/bunny.ndjson -o $out/small.glb --simplify 0.5
