@@ -9,8 +9,11 @@ namespace {
 
 /// Where the file has a vertex; null where it does not say.
 const Vec3* place_in_file(const Stack& stack, const Origin& origin) {
-  if (origin.kind != VertexKind::contour) return nullptr;
-  const auto& places = stack.slices[origin.slice].contours[origin.contour].places;
+  // A stack that stays in its files has only those contours that have places.
+  if (origin.kind != VertexKind::contour || origin.slice >= stack.slices.size()) return nullptr;
+  const std::vector<Contour>& contours = stack.slices[origin.slice].contours;
+  if (origin.contour >= contours.size()) return nullptr;
+  const auto& places = contours[origin.contour].places;
   return places.empty() ? nullptr : &places[origin.point];
 }
 

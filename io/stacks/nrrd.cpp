@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "io/stacks/nrrd.h"
+
+#include <charconv>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "io/bytes/file.h"
+#include "io/bytes/inflate.h"
+#include "io/stacks/nrrd_header.h"
+#include "io/volumes/outlines.h"
+
+namespace loft::io {
+
+namespace {
+
+/// The file with the pixels, which is beside the header.
+std::string read_data_file(const StackInput& input, const std::string& name) {
+  const std::filesystem::path file(name);
+  if (name == "LIST" || name.find('%') != std::string::npos)
+    throw InputError(input.name +
+                     ": data file: pixels in several files cannot be read; save it as one");
+  if (file.has_parent_path() || file.is_absolute() || name == "..")
+    throw InputError(input.name + ": data file: " + name +
+                     " is not beside the header; put both into one folder");
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(input.folder / file, ignored))
+    throw InputError(input.name + ": data file: " + name + " is not there");
+  return read_file(input.folder / file);
+}
+
+/// What is behind some lines and bytes.
+std::string_view skipped(std::string_view bytes, const NrrdHeader& header) {
+  for (std::uint64_t i = 0; i < header.line_skip; ++i) {
+    const std::size_t end = bytes.find('\n');
+    if (end == std::string_view::npos)
+      throw InputError(header.volume.name + ": line skip: the data have fewer lines");
+    bytes.remove_prefix(end + 1);
+  }
+  if (header.byte_skip > bytes.size())
+    throw InputError(header.volume.name + ": byte skip: the data have fewer bytes");
+  return bytes.substr(header.byte_skip);
+}
+
+/// Numbers with blanks or commas between them, as doubles.
+std::string numbers_of(std::string_view text, std::uint64_t count, const std::string& name) {
+  if (count > text.size()) throw InputError(name + ": sizes: more pixels than the file has bytes");
+  std::string bytes(count * sizeof(double), '\0');
+  std::size_t at = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    at = std::min(text.find_first_not_of(" \t\r\n,", at), text.size());
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
+    if (error != std::errc())
+      throw InputError(name + ": pixel " + std::to_string(i) + ": no number is there");
+    std::memcpy(bytes.data() + i * sizeof(double), &value, sizeof(double));
+    at = static_cast<std::size_t>(end - text.data());
+  }
+  return bytes;
+}
+
+/// The pixels' bytes: those of the file, or what is put into `made`.
+std::string_view pixel_bytes(NrrdHeader& header, std::string_view data, std::uint64_t offset,
+                             std::string& made) {
+  const std::string& name = header.volume.name;
+  const auto size = byte_count(header.volume, header.pixels.type);
+  if (!size) throw InputError(name + ": sizes: more pixels than any file holds");
+  if (header.encoding == NrrdHeader::Encoding::text) {
+    made = numbers_of(data, *size / size_of(header.pixels.type), name);
+    header.pixels.type = PixelType::f64;
+    header.pixels.order = std::endian::native;
+    return made;
+  }
+  if (header.encoding == NrrdHeader::Encoding::gzip) {
+    made = inflate_all(data, *size, name, offset);
+    return made;
+  }
+  if (data.size() < *size)
+    throw InputError(name + ": sizes: pixels take " + std::to_string(*size) + " bytes, but only " +
+                     std::to_string(data.size()) +
+                     " are there; the file was cut off, get it again");
+  return data.substr(0, *size);
+}
+
+}  // namespace
+
+bool begins_like_nrrd(std::string_view bytes) { return bytes.starts_with("NRRD000"); }
+
+Stack read_nrrd(const StackInput& input, const ReadOptions& options) {
+  if (!begins_like_nrrd(input.bytes))
+    throw InputError(input.name + ": byte 0: does not begin with NRRD000; save it again as .nrrd");
+  NrrdHeader header = read_nrrd_header(input.bytes, input.name);
+  std::string data_file;
+  std::string_view data = input.bytes.substr(header.size);
+  std::uint64_t offset = header.size;
+  if (!header.data_file.empty()) {
+    data_file = read_data_file(input, header.data_file);
+    data = data_file;
+    offset = 0;
+  }
+  const std::string_view behind = skipped(data, header);
+  offset += data.size() - behind.size();
+  std::string made;
+  const bool is_real_type = is_real(header.pixels.type);
+  header.pixels.bytes = pixel_bytes(header, behind, offset, made);
+  set_pixels(header.volume, header.pixels);
+  header.volume.labels = segments_of(header);
+  set_level(header.volume, options, is_real_type);
+  if (!header.space.empty()) note_world(header.volume, header.space);
+  return trace(header.volume, options);
+}
+
+}  // namespace loft::io
