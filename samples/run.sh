@@ -32,9 +32,16 @@ for name in bunny vessels shells; do
   $loft check $out/${name}_smooth.ply --stack samples/data/$name.ndjson
 done
 
-echo "== From a segmentation: 41 organs in their colours, and their volumes"
+echo "== From 3D Slicer: a chest in seven colours, a file a segment, and their volumes"
+chest=samples/data/slicer_chest.seg.nrrd
+mkdir -p $out/chest
+$loft reconstruct $chest -o $out/chest.glb -o $out/chest.ply -o "$out/chest/{label}.stl" --csv $out/chest.csv
+$loft check $out/chest.ply --stack $chest > $out/chest.txt
+tail -n 1 $out/chest.txt
+
+echo "== From TotalSegmentator: 41 organs, as thick as their slices"
 organs=samples/data/totalsegmentator_example_seg.nii.gz
-$loft reconstruct $organs -o $out/organs.glb -o $out/organs.ply --unit mm --cap extend --csv $out/organs.csv
+$loft reconstruct $organs -o $out/organs.glb -o $out/organs.ply --unit mm --cap extend --csv $out/organs.csv --quiet
 $loft check $out/organs.ply --stack $organs > $out/organs.txt
 tail -n 1 $out/organs.txt
 
@@ -53,7 +60,7 @@ cat << END
 Done. The skull is in
   $PWD/$out/skull.glb    for any glTF viewer: Blender, f3d, a browser
   $PWD/$out/skull.ply    with each vertex's slice, contour and point: MeshLab, ParaView
-The others lie beside it: $out/organs.glb has 41 organs, organs.csv their volumes. Next, try
+The others lie beside it: $out/chest.glb has seven segments, chest.csv their volumes. Next, try
   $loft info samples/data/skull.ndjson
   $loft reconstruct samples/data/skull.ndjson -o $out/skull.stl --smooth --cap dome --json
   $loft reconstruct samples/data/bunny.ndjson -o $out/small.glb --simplify 0.5

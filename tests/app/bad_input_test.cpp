@@ -33,7 +33,7 @@ const std::vector<Case> cases{
     // Files.
     {"MissingFile", "-", to_ply, 3, {"cannot read in.ndjson: No such file or directory"}},
     {"EmptyFile", "", to_ply, 3, {"in.ndjson: no slices in it"}},
-    {"UnknownInput", "-", "info in.dcm", 2, {"in.dcm: unknown extension '.dcm'", ".ndjson"}},
+    {"UnknownInput", "-", "info in.abc", 2, {"in.abc: unknown extension '.abc'", ".ndjson"}},
     {"MissingMesh", "-", "check in.ply", 3, {"cannot read in.ply: No such file or directory"}},
     {"BrokenMesh", "-", "check in.ndjson", 2, {"unknown extension '.ndjson'", ".ply"}},
 
