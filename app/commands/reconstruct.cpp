@@ -220,7 +220,8 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
     if (!part.repairs.empty())
       terminal.say(prefix + describe(summarize(part.repairs), command.unit));
   }
-  for (const path& output : command.outputs) terminal.say("wrote " + output.string());
+  for (const path& output : command.outputs)
+    terminal.say("wrote " + output.string() + (is_per_label(output) ? ", a file a label" : ""));
 }
 
 void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& report) {
