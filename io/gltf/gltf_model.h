@@ -5,8 +5,8 @@
 #include <tiny_gltf.h>
 
 #include <cstddef>
-#include <ostream>
 #include <optional>
+#include <ostream>
 #include <string>
 #include <vector>
 

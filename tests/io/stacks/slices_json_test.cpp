@@ -189,8 +189,7 @@ TEST(Slices, GathersTheProblemsOfAllFiles) {
   const Folder folder;
   const std::vector<std::filesystem::path> paths{folder.write("a.ndjson", "x"),
                                                  folder.write("b.ndjson", "")};
-  const std::string message =
-      message_of<InputError>([&] { static_cast<void>(read_stack(paths)); });
+  const std::string message = message_of<InputError>([&] { static_cast<void>(read_stack(paths)); });
   EXPECT_NE(message.find("a.ndjson:1: slice 0 broken JSON"), std::string::npos) << message;
   EXPECT_NE(message.find("b.ndjson: no slices"), std::string::npos) << message;
 }
