@@ -110,10 +110,14 @@ double MaskOutlines::share(std::size_t first, std::size_t second) const {
   return std::isfinite(share) ? std::clamp(share, nearest, 1 - nearest) : half;
 }
 
+cdt::Point MaskOutlines::centre(std::size_t pixel) const {
+  const std::size_t row = pixel / width_;
+  return {static_cast<double>(pixel % width_) - 1, static_cast<double>(row) - 1};
+}
+
 cdt::Point MaskOutlines::iso_point(Crossing crossing) const {
   const std::size_t pixel = (crossing & ~is_cut) / 4;
-  const auto x = static_cast<double>(pixel % width_) - 1;
-  const auto y = static_cast<double>(pixel / width_) - 1;
+  const auto [x, y] = centre(pixel);
   if (is_above(crossing)) return {x, y + share(pixel, pixel + width_)};
   return {x + share(pixel, pixel + 1), y};
 }
@@ -134,10 +138,9 @@ std::vector<cdt::Point> MaskOutlines::edge_points(std::span<const Crossing> loop
     const Crossing next = loop[(i + 1) % loop.size()];
     if (is_above(here) == is_above(next)) continue;
     const auto middle = [this](Crossing crossing) {
-      const std::size_t pixel = (crossing & ~is_cut) / 4;
+      const auto [x, y] = centre((crossing & ~is_cut) / 4);
       const double half = 0.5;
-      return cdt::Point{static_cast<double>(pixel % width_) - 1 + (is_above(crossing) ? 0 : half),
-                        static_cast<double>(pixel / width_) - 1 + (is_above(crossing) ? half : 0)};
+      return cdt::Point{x + (is_above(crossing) ? 0 : half), y + (is_above(crossing) ? half : 0)};
     };
     const cdt::Point from = middle(here);
     const cdt::Point to = middle(next);

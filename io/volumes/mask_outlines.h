@@ -47,6 +47,8 @@ class MaskOutlines {
 
   void cross_cell(std::size_t place);
   [[nodiscard]] std::vector<Crossing> take_loop(Crossing start);
+  /// Of a pixel of the padded image, in the image.
+  [[nodiscard]] cdt::Point centre(std::size_t pixel) const;
   [[nodiscard]] cdt::Point iso_point(Crossing crossing) const;
   [[nodiscard]] double share(std::size_t first, std::size_t second) const;
   [[nodiscard]] std::vector<cdt::Point> edge_points(std::span<const Crossing> loop) const;
