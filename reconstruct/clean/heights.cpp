@@ -121,9 +121,11 @@ Region clean(const Height& height, std::span<const Slice> stack,
              std::span<const ContourId> contours, const Options& options,
              std::vector<Defect>& repairs, cdt::Triangulation& memory) {
   std::vector<ContourSource> found;
-  for (const std::uint32_t slice : height.slices)
-    for (const ContourId& id : std::ranges::equal_range(contours, slice, {}, &ContourId::slice))
-      found.push_back({stack[slice].contours[id.contour].points, slice, id.contour});
+  for (const std::uint32_t slice : height.slices) {
+    auto id = std::ranges::lower_bound(contours, slice, {}, &ContourId::slice);
+    for (; id != contours.end() && id->slice == slice; ++id)
+      found.push_back({stack[slice].contours[id->contour].points, slice, id->contour});
+  }
   return clean(height, found, options, repairs, memory);
 }
 
