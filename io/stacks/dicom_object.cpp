@@ -46,11 +46,17 @@ E_TransferSyntax syntax_of(const DicomOpening& opening, std::string_view name) {
     if (!opening.encoding.is_explicit) return EXS_LittleEndianImplicit;
     return opening.encoding.is_big_endian ? EXS_BigEndianExplicit : EXS_LittleEndianExplicit;
   }
-  const E_TransferSyntax syntax = DcmXfer(opening.transfer_syntax.c_str()).getXfer();
-  if (syntax == EXS_Unknown)
-    throw InputError(std::string(name) + ": its transfer syntax " +
-                     described(opening.transfer_syntax) +
-                     " cannot be read; convert it to Explicit VR Little Endian");
+  const bool is_uid = opening.transfer_syntax.find_first_not_of("0123456789.") == std::string::npos;
+  const DcmXfer xfer(is_uid ? opening.transfer_syntax.c_str() : "none");
+  const E_TransferSyntax syntax = xfer.getXfer();
+  // Lengths are checked as the opening takes the file to be written: DCMTK must do the same.
+  const bool is_same = xfer.isExplicitVR() == opening.encoding.is_explicit &&
+                       xfer.isBigEndian() == opening.encoding.is_big_endian;
+  if (syntax == EXS_Unknown || !is_same)
+    throw InputError(
+        std::string(name) + ": its transfer syntax " +
+        (is_uid ? described(opening.transfer_syntax) : in_quotes(opening.transfer_syntax)) +
+        " cannot be read; convert it to Explicit VR Little Endian");
   return syntax;
 }
 

@@ -94,7 +94,12 @@ class Tracing {
 
 Stack trace(const Volume& volume, const ReadOptions& options) {
   require_sizes(volume);
-  return Tracing(volume, options)();
+  Stack stack = Tracing(volume, options)();
+  if (std::ranges::all_of(stack.slices, [](const Slice& s) { return s.contours.empty(); }))
+    throw InputError(volume.name +
+                     ": no pixel is inside of anything; give a file with labels, or with shares "
+                     "that reach the level");
+  return stack;
 }
 
 }  // namespace loft::io

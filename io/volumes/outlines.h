@@ -26,8 +26,9 @@ namespace loft::io {
 /// world's coordinates; otherwise they are in its distances along the rows and across them, and the
 /// stack has a frame.
 ///
-/// Throws InputError where the volume has no spacing and the options none, or its matrix is
-/// singular. Cost: O(pixels + labels), memory for a few slices beside the outlines.
+/// Throws InputError where nothing is inside, where the volume has no spacing and the options none,
+/// or its matrix is singular. Cost: O(pixels + labels), memory for a few slices beside the
+/// outlines.
 [[nodiscard]] Stack trace(const Volume& volume, const ReadOptions& options = {});
 
 }  // namespace loft::io

@@ -18,14 +18,17 @@ inline void use(const Contour& contour) {
     require(std::isfinite(point.x) && std::isfinite(point.y), "a point that is no place");
 }
 
-/// Reads any bytes: a stack comes out whose slices ascend, or words.
+/// Reads any bytes: a stack comes out whose slices ascend, or descend as those of images may, or
+/// words.
 inline void read_stack(Stack (*read)(const io::StackInput&, const io::ReadOptions&),
                        const std::string& bytes, const io::ReadOptions& options = {}) {
   try_to([&] {
     const Stack stack = read({bytes, "a.file"}, options);
     bool has_contour = false;
     for (std::size_t i = 0; i < stack.slices.size(); ++i) {
-      require(i == 0 || stack.slices[i - 1].z < stack.slices[i].z, "slices that do not ascend");
+      require(i == 0 || (stack.slices[i - 1].z < stack.slices[i].z) ==
+                            (stack.slices[0].z < stack.slices[1].z),
+              "slices that neither ascend nor descend");
       for (const Contour& contour : stack.slices[i].contours) use(contour);
       has_contour = has_contour || !stack.slices[i].contours.empty();
     }
