@@ -58,8 +58,8 @@ TEST(Outlines, EncloseTheCentresOfTheirPixelsAndNoOthers) {
     const auto columns = static_cast<std::uint32_t>(1 + random() % 12);
     const auto rows = static_cast<std::uint32_t>(1 + random() % 12);
     const int labels = 1 + static_cast<int>(random() % 4);
-    const std::vector<double> pixels =
-        random_pixels(std::size_t{2} * columns * rows, labels, random);
+    std::vector<double> pixels = random_pixels(std::size_t{2} * columns * rows, labels, random);
+    pixels[random() % pixels.size()] = 1;  // nothing at all would be refused
     for (const Outline outline : drawings) {
       const Stack stack = trace(volume_of(columns, rows, pixels), {.outline = outline});
       ASSERT_EQ(stack.slices.size(), 2U);
@@ -76,6 +76,10 @@ TEST(Outlines, EncloseTheCentresOfTheirPixelsAndNoOthers) {
           ASSERT_EQ(repeated_points(slice, std::to_string(label)), 0U);
     }
   }
+}
+
+TEST(Outlines, OfNothingAreRefused) {
+  EXPECT_THROW(static_cast<void>(trace(volume_of(2, 1, {0, 0}))), InputError);
 }
 
 TEST(Outlines, OfLabelsDoNotOverlap) {
