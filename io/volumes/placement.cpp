@@ -29,6 +29,11 @@ double length(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }
 
 Vec3 times(const Vec3& a, double factor) { return {a[0] * factor, a[1] * factor, a[2] * factor}; }
 
+/// 0 for what rounding has left.
+double without_traces(double number) {
+  return std::abs(number) < admitted::slice.smallest ? 0 : number;
+}
+
 bool is_distance(double number) { return std::isfinite(number) && number > 0; }
 
 /// With the spacing that the user says; directions stay.
@@ -101,8 +106,7 @@ Matrix world_matrix(const Volume& volume, const ReadOptions& options) {
   Matrix matrix =
       options.spacing ? with_spacing(volume.to_world, *options.spacing) : volume.to_world;
   for (auto& row : matrix)
-    for (double& number : row)
-      if (std::abs(number) < admitted::slice.smallest) number = 0;  // what rounding left
+    for (double& number : row) number = without_traces(number);
   require_usable(matrix, volume);
   return matrix;
 }
@@ -129,9 +133,10 @@ void Placement::tilt(const Matrix& to_world) {
   to_slices_ = {};
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      frame_->rows[row][axis] = axes[axis][row];
+      frame_->rows[row][axis] = without_traces(axes[axis][row]);
       // Columns run along x, rows in the plane, by construction.
-      to_slices_[row][axis] = row > axis ? 0 : dot(axes[row], column(to_world, axis));
+      to_slices_[row][axis] =
+          row > axis ? 0 : without_traces(dot(axes[row], column(to_world, axis)));
     }
     frame_->rows[row][3] = to_world[row][3];
   }
