@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "io/stacks/dicom.h"
+#include "reconstruct/defect.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {
