@@ -18,19 +18,34 @@ inline void use(const Contour& contour) {
     require(std::isfinite(point.x) && std::isfinite(point.y), "a point that is no place");
 }
 
+inline void use(const Stack& stack) {
+  for (const Slice& slice : stack.slices)
+    for (const Contour& contour : slice.contours) use(contour);
+  require(!stack.frame || fault(*stack.frame).empty(), "a frame that cannot be used");
+}
+
 /// Reads any bytes: a stack comes out whose slices ascend, or words.
 inline void read_stack(Stack (*read)(const io::StackInput&, const io::ReadOptions&),
                        const std::string& bytes, const io::ReadOptions& options = {}) {
   try_to([&] {
     const Stack stack = read({bytes, "a.file"}, options);
+    use(stack);
     bool has_contour = false;
     for (std::size_t i = 0; i < stack.slices.size(); ++i) {
       require(i == 0 || stack.slices[i - 1].z < stack.slices[i].z, "slices that do not ascend");
-      for (const Contour& contour : stack.slices[i].contours) use(contour);
       has_contour = has_contour || !stack.slices[i].contours.empty();
     }
     require(has_contour, "a stack without contours");
-    require(!stack.frame || fault(*stack.frame).empty(), "a frame that cannot be used");
+  });
+}
+
+/// The same of formats whose slices may descend, and be empty.
+inline void read_volume(Stack (*read)(const io::StackInput&, const io::ReadOptions&),
+                        const std::string& bytes) {
+  try_to([&] {
+    const Stack stack = read({bytes, "a.file"}, {});
+    require(!stack.slices.empty(), "a stack without slices");
+    use(stack);
   });
 }
 
