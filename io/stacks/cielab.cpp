@@ -28,15 +28,15 @@ Colour from_cielab(const std::array<std::uint16_t, 3>& scaled) {
   const double a = scaled[1] * 255 / most - 128;
   const double b = scaled[2] * 255 / most - 128;
   const double y = (lightness + 16) / 116;
-  // D50, and from there to linear sRGB of D65 (Bradford).
-  const double white_x = 0.96422;
-  const double white_z = 0.82521;
+  // White D65, as that of sRGB.
+  constexpr double white_x = 0.95047;
+  constexpr double white_z = 1.08883;
   const double X = white_x * from_curve(y + a / 500);
   const double Y = from_curve(y);
   const double Z = white_z * from_curve(y - b / 200);
-  return {to_srgb(3.1338561 * X - 1.6168667 * Y - 0.4906146 * Z),
-          to_srgb(-0.9787684 * X + 1.9161415 * Y + 0.0334540 * Z),
-          to_srgb(0.0719453 * X - 0.2289914 * Y + 1.4052427 * Z)};
+  return {to_srgb(3.2404542 * X - 1.5371385 * Y - 0.4985314 * Z),
+          to_srgb(-0.9692660 * X + 1.8760108 * Y + 0.0415560 * Z),
+          to_srgb(0.0556434 * X - 0.2040259 * Y + 1.0572252 * Z)};
 }
 
 }  // namespace loft::io

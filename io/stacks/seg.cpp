@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/stacks/seg.h"
 
-#include <dcmtk/dcmdata/dcuid.h>
 #include <dcmtk/dcmdata/dcxfer.h>
 
 #include <algorithm>
@@ -47,12 +46,11 @@ class Segmentation {
   }
 
   void refuse_compressed() const {
-    const std::string& syntax = object_.transfer_syntax();
-    if (syntax.empty() || !DcmXfer(syntax.c_str()).isEncapsulated()) return;
-    const char* const words = dcmFindNameOfUID(syntax.c_str());
-    fail("(7fe0,0010)", "pixels are compressed by " + (words == nullptr ? "" : std::string(words)) +
-                            " (" + syntax +
-                            "), which is not read; convert it with gdcmconv --raw IN OUT");
+    const std::string& uid = object_.transfer_syntax();
+    const DcmXfer syntax(uid.c_str());
+    if (uid.empty() || !syntax.isEncapsulated()) return;
+    fail("(7fe0,0010)", "pixels are compressed by " + std::string(syntax.getXferName()) + " (" +
+                            uid + "), which is not read; convert it with gdcmconv --raw IN OUT");
   }
 
   void read_kind() {
