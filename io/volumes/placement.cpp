@@ -90,6 +90,11 @@ void require_usable(const Matrix& matrix, const Volume& volume) {
   if (!(std::abs(volume_of_unit) > flattest)) refuse("is singular");
 }
 
+/// 0 for what is so small that nothing but rounding left it.
+double without_rounding(double number) {
+  return std::abs(number) < admitted::slice.smallest ? 0 : number;
+}
+
 Matrix world_matrix(const Volume& volume, const ReadOptions& options) {
   if (options.spacing && !std::ranges::all_of(*options.spacing, is_distance))
     throw InputError(volume.name +
@@ -101,8 +106,7 @@ Matrix world_matrix(const Volume& volume, const ReadOptions& options) {
   Matrix matrix =
       options.spacing ? with_spacing(volume.to_world, *options.spacing) : volume.to_world;
   for (auto& row : matrix)
-    for (double& number : row)
-      if (std::abs(number) < admitted::slice.smallest) number = 0;  // what rounding left
+    for (double& number : row) number = without_rounding(number);
   require_usable(matrix, volume);
   return matrix;
 }
@@ -129,7 +133,7 @@ void Placement::tilt(const Matrix& to_world) {
   to_slices_ = {};
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      frame_->rows[row][axis] = axes[axis][row];
+      frame_->rows[row][axis] = without_rounding(axes[axis][row]);
       // Columns run along x, rows in the plane, by construction.
       to_slices_[row][axis] = row > axis ? 0 : dot(axes[row], column(to_world, axis));
     }

@@ -254,6 +254,17 @@ TEST(Nifti, ObliqueSlicesHaveAFrameThatGivesTheWorldBack) {
   EXPECT_NEAR(place[2], 3 * 0.6 + 5 * 0.8 + 9, 1e-5);
 }
 
+TEST(Nifti, AFrameHasNoNumberThatOnlyRoundingLeft) {
+  Made made;
+  made.is_second = true;
+  made.sform = 1;
+  // The product of the two small ones is too small for a frame.
+  made.srow = {2, 0, 0, 0, 0, 1e-28, -5, 0, 3e-32, 3, 0, 0};
+  const Stack stack = read_edges(made);
+  ASSERT_TRUE(stack.frame);
+  EXPECT_EQ(fault(*stack.frame), "");
+}
+
 TEST(Nifti, ASlopeOfZeroOrNoNumberIsNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double slope : {0.0, nan, HUGE_VAL}) {
