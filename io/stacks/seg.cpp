@@ -181,6 +181,13 @@ class Segmentation {
              ", and of the same segment; export one point of time, or one segmentation");
   }
 
+  [[nodiscard]] double half_of_largest() const {
+    const std::uint16_t largest = number(DCM_MaximumFractionalValue, 255);
+    if (largest == 0)
+      fail("(0062,000e)", "the largest value is 0, of which no pixel is a share; export it again");
+    return largest / 2.0;
+  }
+
   void set_volume() {
     volume_.name = object_.name();
     volume_.slices = static_cast<std::uint32_t>(frames_.positions.size());
@@ -188,8 +195,7 @@ class Segmentation {
     volume_.positions = frames_.positions;
     volume_.unit = "mm";
     volume_.notes.insert(volume_.notes.end(), object_.notes().begin(), object_.notes().end());
-    if (kind_ == SegKind::fractional)
-      volume_.level = options_.level.value_or(number(DCM_MaximumFractionalValue, 255) / 2.0);
+    if (kind_ == SegKind::fractional) volume_.level = options_.level.value_or(half_of_largest());
     if (kind_ == SegKind::label_map) {
       for (std::size_t i = 0; i < frames_.frames.size(); ++i)
         add_frame(frames_.frames[i].plane, 0, i);

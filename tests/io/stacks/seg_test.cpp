@@ -261,6 +261,8 @@ TEST(Seg, OfShareHalfOfTheLargestPossibleIsInside) {
   EXPECT_TRUE(stack.slices[1].contours.empty());
   made.largest = 100;
   expect_mask(read(made).slices[1], "organ", bars({2}));
+  made.largest = 0;
+  EXPECT_THAT(problem(made), HasSubstr("(0062,000e): the largest value is 0"));
 }
 
 TEST(Seg, ALabelMapHasABackgroundThatIsNone) {
