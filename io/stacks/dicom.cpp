@@ -8,6 +8,7 @@
 
 #include "io/stacks/dicom_object.h"
 #include "io/stacks/rtstruct.h"
+#include "io/stacks/seg.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -15,6 +16,7 @@ namespace loft::io {
 namespace {
 
 constexpr std::string_view structure_set = "1.2.840.10008.5.1.4.1.1.481.3";
+constexpr std::string_view segmentation = "1.2.840.10008.5.1.4.1.1.66.4";
 
 /// What kind of object it is, as messages say it.
 std::string described(const std::string& sop_class, std::string_view modality) {
@@ -26,14 +28,17 @@ std::string described(const std::string& sop_class, std::string_view modality) {
 
 }  // namespace
 
-Stack read_dicom(const StackInput& input, const ReadOptions&) {
+Stack read_dicom(const StackInput& input, const ReadOptions& options) {
   DicomObject object(input.bytes, input.name);
   const std::string sop_class = object.text(object.data_set(), DCM_SOPClassUID);
   const std::string modality = object.text(object.data_set(), DCM_Modality);
   if (sop_class == structure_set || (sop_class.empty() && modality == "RTSTRUCT"))
     return read_structure_set(object);
+  if (sop_class == segmentation || sop_class == label_map_segmentation ||
+      (sop_class.empty() && modality == "SEG"))
+    return read_segmentation(object, options);
   throw InputError(input.name + ": is " + described(sop_class, modality) +
-                   "; contours are in an RT Structure Set: name that");
+                   "; contours are in an RT Structure Set or a Segmentation: name that");
 }
 
 }  // namespace loft::io
