@@ -31,12 +31,13 @@ Colour from_cielab(const std::array<std::uint16_t, 3>& scaled) {
   // White D65, as that of sRGB.
   constexpr double white_x = 0.95047;
   constexpr double white_z = 1.08883;
-  const double X = white_x * from_curve(y + a / 500);
-  const double Y = from_curve(y);
-  const double Z = white_z * from_curve(y - b / 200);
-  return {to_srgb(3.2404542 * X - 1.5371385 * Y - 0.4985314 * Z),
-          to_srgb(-0.9692660 * X + 1.8760108 * Y + 0.0415560 * Z),
-          to_srgb(0.0556434 * X - 0.2040259 * Y + 1.0572252 * Z)};
+  const double tristimulus_x = white_x * from_curve(y + a / 500);
+  const double tristimulus_y = from_curve(y);
+  const double tristimulus_z = white_z * from_curve(y - b / 200);
+  return {
+      to_srgb(3.2404542 * tristimulus_x - 1.5371385 * tristimulus_y - 0.4985314 * tristimulus_z),
+      to_srgb(-0.9692660 * tristimulus_x + 1.8760108 * tristimulus_y + 0.0415560 * tristimulus_z),
+      to_srgb(0.0556434 * tristimulus_x - 0.2040259 * tristimulus_y + 1.0572252 * tristimulus_z)};
 }
 
 }  // namespace loft::io
