@@ -100,6 +100,10 @@ std::string grouped(std::size_t number) {
   return digits;
 }
 
+std::string counted(std::size_t number, const std::string& what) {
+  return grouped(number) + ' ' + what + (number == 1 ? "" : "s");
+}
+
 std::string rounded(double number) {
   if (!std::isfinite(number)) return "out of range";
   std::ostringstream text;

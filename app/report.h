@@ -34,6 +34,8 @@ void add_sizes(std::map<std::string, StackSize>& of_labels, const Slice& slice);
 
 /// `1,234,567`
 [[nodiscard]] std::string grouped(std::size_t number);
+/// `1 slice`, `1,234 slices`
+[[nodiscard]] std::string counted(std::size_t number, const std::string& what);
 /// Four significant digits, for people; words where a number is beyond all numbers.
 [[nodiscard]] std::string rounded(double number);
 /// `1,234 triangles, 619 vertices, 1 component, genus 0, area 12.3 mm^2, volume 4.56 mm^3`; `unit`

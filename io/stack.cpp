@@ -25,14 +25,14 @@ class Inputs {
   explicit Inputs(std::span<const path> paths) {
     contents_.reserve(paths.size());
     for (const path& one : paths) {
-      contents_.push_back(read_file(one));
-      inputs_.push_back({contents_.back(), one.string(), one.parent_path()});
+      contents_.emplace_back(one);
+      inputs_.push_back({contents_.back().view(), one.string(), one.parent_path()});
     }
   }
   [[nodiscard]] std::span<const StackInput> all() const { return inputs_; }
 
  private:
-  std::vector<std::string> contents_;
+  std::vector<FileBytes> contents_;
   std::vector<StackInput> inputs_;
 };
 

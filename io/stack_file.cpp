@@ -5,6 +5,7 @@
 #include <fstream>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "io/bytes/file.h"
 #include "io/bytes/text.h"
@@ -41,15 +42,12 @@ bool is_read_by_line(const std::filesystem::path& path) {
 }
 
 /// A slice without its points; where these are in the world stays.
-Slice only_places(Slice slice) {
-  if (std::ranges::all_of(slice.contours, [](const Contour& c) { return c.places.empty(); }))
-    slice.contours = {};
-  for (Contour& contour : slice.contours) {
-    contour.points = {};
-    contour.label = {};
-    contour.source = {};
-  }
-  return slice;
+Slice only_places(const Slice& slice) {
+  Slice result{slice.z, {}};
+  if (std::ranges::any_of(slice.contours, [](const Contour& c) { return !c.places.empty(); }))
+    for (const Contour& contour : slice.contours)
+      result.contours.push_back({{}, {}, {}, contour.places});
+  return result;
 }
 
 }  // namespace
@@ -81,7 +79,7 @@ void StackFile::read_lines(unsigned threads, const Visit& visit) {
             const std::uint64_t done = before + place.offset + place.length;
             label_unlabelled(slice, labels_[f]);
             visit(slice, total == 0 ? 1 : static_cast<double>(done) / static_cast<double>(total));
-            slices.push_back(only_places(std::move(slice)));
+            slices.push_back(only_places(slice));
           });
       join(about_, std::move(about), paths_[f].string(), f == 0);
     } catch (const InputError& error) {
@@ -95,12 +93,12 @@ void StackFile::read_lines(unsigned threads, const Visit& visit) {
 }
 
 void StackFile::keep_in_memory(const Visit& visit) {
-  in_memory_ = about_.slices;
+  in_memory_ = std::exchange(about_.slices, {});
   for (std::size_t i = 0; i < in_memory_.size(); ++i) {
     const Slice& slice = in_memory_[i];
     entries_.push_back({0, {}, slice.z, point_count(slice)});
     visit(slice, static_cast<double>(i + 1) / static_cast<double>(in_memory_.size()));
-    about_.slices[i] = only_places(std::move(about_.slices[i]));
+    about_.slices.push_back(only_places(slice));
   }
 }
 

@@ -17,7 +17,8 @@
 namespace loft::io {
 
 /// A stack that stays in its files: it knows where each slice is, and reads it when it is asked
-/// for. Of other formats than NDJSON the slices are kept in memory.
+/// for. Of other formats than NDJSON the outlines are kept in memory; the pixels of volumes are
+/// not.
 class StackFile {
  public:
   /// Gets to see each slice once, in order, and the share of the input that has been read.

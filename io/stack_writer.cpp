@@ -3,14 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <ostream>
 
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
+#include "io/stacks/cli_writer.h"
+#include "io/stacks/contour_writer.h"
+#include "io/stacks/csv_writer.h"
 #include "io/stacks/slices_json.h"
-#include "reconstruct/number_text.h"
-#include "reconstruct/world.h"
 
 namespace loft::io {
 
@@ -23,55 +23,13 @@ Losses write_ndjson(std::ostream& out, const Stack& stack) {
   return {};
 }
 
-/// As a field of CSV (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
-}
-
-Losses write_csv(std::ostream& out, const Stack& stack) {
-  out << "x,y,z,contour,label\r\n";
-  std::size_t number = 0;
-  std::size_t empty = 0;
-  for (std::uint32_t s = 0; s < stack.slices.size(); ++s) {
-    const Slice& slice = stack.slices[s];
-    empty += slice.contours.empty() ? 1U : 0U;
-    for (std::uint32_t c = 0; c < slice.contours.size(); ++c, ++number) {
-      const Contour& contour = slice.contours[c];
-      const std::string end = ',' + std::to_string(number) + ',' + field(contour.label) + "\r\n";
-      std::string lines;
-      for (std::uint32_t p = 0; p < contour.points.size(); ++p) {
-        const Vec3 place = world_place(stack, {contour.points[p].x, contour.points[p].y, slice.z},
-                                       {VertexKind::contour, s, c, p});
-        append_number(lines, place[0]);
-        lines += ',';
-        append_number(lines, place[1]);
-        lines += ',';
-        append_number(lines, place[2]);
-        lines += end;
-      }
-      out << lines;
-    }
-  }
-  Losses losses;
-  if (empty > 0)
-    losses.push_back("CSV has no empty slices: " + std::to_string(empty) + " left out");
-  if (!stack.unit.empty() || !stack.labels.empty())
-    losses.push_back("CSV has no units and no colours: left out");
-  return losses;
-}
-
 struct Format {
   std::string_view extension;
   Losses (*write)(std::ostream&, const Stack&);
 };
 constexpr std::array formats{Format{".ndjson", write_ndjson}, Format{".jsonl", write_ndjson},
-                             Format{".csv", write_csv}};
+                             Format{".csv", write_csv}, Format{".cli", write_cli},
+                             Format{".contour", write_contour}};
 
 const Format& format_of(const std::filesystem::path& path) {
   const auto found = std::ranges::find(formats, extension(path), &Format::extension);

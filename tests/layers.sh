@@ -27,7 +27,7 @@ shape         reconstruct/shape/*            link sew
 live          reconstruct/live/*             shape
 reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction,world}                live
 
-io-values     io/version                     reconstruct
+io-values     io/{unit,version}              reconstruct
 bytes         io/bytes/*                     io-values
 read-options  io/stacks/read_options        io-values
 volumes       io/volumes/*                   bytes read-options
@@ -38,7 +38,7 @@ planar        io/planar/*                    bytes
 session       io/session/*                   stacks
 io            io/{meshes,polylines,stack,stack_file,stack_writer,surfaces,triangulations}     gltf planar session
 
-words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,terminal,unit}  io
+words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,terminal}  io
 capture       app/capture/*                  words
 server        app/server/*                   capture
 commands      app/commands/*                 server

@@ -56,6 +56,7 @@ struct CheckCommand {
 struct InfoCommand {
   std::vector<std::filesystem::path> files;
   io::ReadOptions read;
+  bool volumes = true;  ///< of the labels of stacks
   bool json = false;
 };
 

@@ -9,6 +9,7 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/each_file.h"
+#include "app/commands/label_volumes.h"
 #include "app/json.h"
 #include "app/report.h"
 #include "io/bytes/file.h"
@@ -44,10 +45,14 @@ struct StackSummary {
   Bounds bounds;
   std::vector<double> gaps;  ///< between neighbouring heights, sorted
   std::map<std::string, StackSize> labels;
-  Stack about;  ///< without slices
+  std::map<std::string, LabelVolume> volumes;  ///< where they were asked for
+  Stack about;                                 ///< without slices
 };
 
-StackSummary summarise(Stack stack) {
+/// More labels than that are no list for people.
+constexpr std::size_t most_lines = 60;
+
+StackSummary summarise(Stack stack, const InfoCommand& command) {
   StackSummary summary;
   summary.size = size_of(stack.slices);
   std::vector<double> heights;
@@ -70,6 +75,8 @@ StackSummary summarise(Stack stack) {
     summary.gaps.push_back(heights[i] - heights[i - 1]);
   }
   std::ranges::sort(summary.gaps);
+  if (command.volumes && (command.json || summary.labels.size() <= most_lines))
+    summary.volumes = label_volumes(stack);
   stack.slices.clear();
   summary.about = std::move(stack);
   return summary;
@@ -99,7 +106,9 @@ Json to_json(const WorldFrame& frame) {
 /// `loft info STACK --json`: schema "loft-info", schema_version 1, file, kind "stack", counts,
 /// unit, fill and frame (16 numbers, row by row) where the file says them, else null; bounds (low
 /// and high corner, in the world), gaps (min, median, max; null for one slice), labels (label,
-/// counts, colour `#rrggbb`, id and kind, empty where there is none), notes (what is left out).
+/// counts, colour `#rrggbb`, id and kind, empty where there is none; volume, that which the surface
+/// encloses, and slab_volume, that of slices as thick as their gaps: see Reconstructed; null
+/// without a surface, or with --no-volumes), notes (what is left out).
 Json to_json(const StackSummary& summary) {
   Json json;
   json["kind"] = "stack";
@@ -128,13 +137,17 @@ Json to_json(const StackSummary& summary) {
         told != nullptr && told->colour ? io::to_text(*told->colour) : std::string();
     json["labels"].back()["id"] = told != nullptr ? told->id : std::string();
     json["labels"].back()["kind"] = told != nullptr ? told->kind : std::string();
+    const auto volume = summary.volumes.find(label);
+    const bool has_volume = volume != summary.volumes.end() && volume->second.problem.empty();
+    json["labels"].back()["volume"] = has_volume ? Json(volume->second.surface) : Json();
+    json["labels"].back()["slab_volume"] = has_volume ? Json(volume->second.slabs) : Json();
   }
   json["notes"] = about.notes;
   return json;
 }
 
 void print_size(const StackSize& size) {
-  std::cout << grouped(size.slices) << " slices, " << grouped(size.contours) << " contours, "
+  std::cout << counted(size.slices, "slice") << ", " << counted(size.contours, "contour") << ", "
             << grouped(size.vertices) << " vertices";
 }
 
@@ -148,10 +161,18 @@ void print_about(const Stack& about) {
   for (const std::string& note : about.notes) std::cout << "  " << note << '\n';
 }
 
+std::string volume_of(const StackSummary& summary, const std::string& label) {
+  const auto found = summary.volumes.find(label);
+  return found == summary.volumes.end() ? "" : describe(found->second, summary.about.unit);
+}
+
 /// A line each; of many the names alone.
 void print_labels(const StackSummary& summary) {
-  constexpr std::size_t most_lines = 60;
-  if (summary.labels.size() == 1 && summary.labels.begin()->first.empty()) return;
+  if (summary.labels.size() == 1 && summary.labels.begin()->first.empty()) {
+    if (const std::string volume = volume_of(summary, ""); !volume.empty())
+      std::cout << "  " << volume << '\n';
+    return;
+  }
   if (summary.labels.size() > most_lines) {
     std::cout << "  " << grouped(summary.labels.size()) << " labels (all with --json): ";
     const char* between = "";
@@ -163,6 +184,8 @@ void print_labels(const StackSummary& summary) {
   for (const auto& [label, size] : summary.labels) {
     std::cout << "  label '" << label << "': ";
     print_size(size);
+    if (const std::string volume = volume_of(summary, label); !volume.empty())
+      std::cout << ", " << volume;
     if (const StackLabel* const told = summary.about.find_label(label)) {
       if (told->colour) std::cout << ", " << io::to_text(*told->colour);
       if (!told->id.empty()) std::cout << ", id " << told->id;
@@ -175,7 +198,8 @@ void print_labels(const StackSummary& summary) {
 void print_stack(const StackSummary& summary) {
   std::cout << "  ";
   print_size(summary.size);
-  if (summary.empty_slices > 0) std::cout << ", " << summary.empty_slices << " slices empty";
+  if (summary.empty_slices > 0)
+    std::cout << ", " << counted(summary.empty_slices, "slice") << " empty";
   std::cout << '\n';
   print_bounds(summary.bounds);
   if (const std::vector<double>& gaps = summary.gaps; !gaps.empty()) {
@@ -238,7 +262,7 @@ ExitCode run(const InfoCommand& command) {
       print_summary(summary);
     };
     if (io::is_stack_file(file)) {
-      show(summarise(io::read_stack(file, command.read)), print_stack);
+      show(summarise(io::read_stack(file, command.read), command), print_stack);
     } else if (io::is_mesh_file(file)) {
       show(summarise(io::read_meshes(file)), print_meshes);
     } else {

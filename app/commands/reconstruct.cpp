@@ -22,10 +22,10 @@
 #include "app/place.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
-#include "app/unit.h"
 #include "io/stack.h"
 #include "io/stacks/links_json.h"
 #include "io/surfaces.h"
+#include "io/unit.h"
 #include "mesh/measure.h"
 #include "reconstruct/number_text.h"
 
@@ -175,7 +175,7 @@ void warn(const ReconstructCommand& command, const PartReport& part, Terminal& t
 
 io::WriteOptions write_options(const ReconstructCommand& command) {
   io::WriteOptions options;
-  options.metres_per_unit = *metres_per_unit(command.unit);
+  options.metres_per_unit = *io::metres_per_unit(command.unit);
   // File names only: the same stack gives the same bytes wherever it lies.
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
   options.settings = {{"fill", name(command.options.fill)},

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "app/json.h"
-#include "app/unit.h"
+#include "io/unit.h"
 
 namespace loft::app {
 
@@ -169,7 +169,7 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"max_shift", command.options.max_shift ? Json(*command.options.max_shift) : Json()},
       {"links", command.links ? Json(command.links->string()) : Json()},
       {"smooth", command.options.smooth},
-      {"metres_per_unit", *metres_per_unit(command.unit)}};
+      {"metres_per_unit", *io::metres_per_unit(command.unit)}};
   for (const auto& [setting, length] : lengths(command.options)) json["options"][setting] = length;
   json["out_of_core"] = report.is_out_of_core;
   add_size(json, report.input);

@@ -55,7 +55,8 @@ ExitCode list(const SessionCommand& command) {
     std::cout << print(report) << '\n';
     return ExitCode::ok;
   }
-  std::cout << grouped(count) << " edits, " << grouped(state.slices().size()) << " slices now\n";
+  std::cout << counted(count, "edit") << ", " << counted(state.slices().size(), "slice")
+            << " now\n";
   for (const auto& [setting, value] : settings) std::cout << setting << " = " << value << '\n';
   return ExitCode::ok;
 }

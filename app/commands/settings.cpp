@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "app/report.h"
-#include "app/unit.h"
+#include "io/unit.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::app {
@@ -50,7 +50,7 @@ Capture::Setup setup_of(const StreamCommand& command) {
   setup.options = command.options;
   setup.most_effort = static_cast<std::uint64_t>(command.most_effort * 1e6);
   setup.unit = command.unit;
-  setup.metres_per_unit = metres_per_unit(command.unit).value_or(0.001);
+  setup.metres_per_unit = io::metres_per_unit(command.unit).value_or(0.001);
   return setup;
 }
 

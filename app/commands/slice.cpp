@@ -105,7 +105,7 @@ ExitCode run(const SliceCommand& command) {
     terminal.warn(command.mesh.string() + ": the mesh is not closed; " + grouped(open) +
                   " outlines end at its rim and are left out");
   for (const std::string& loss : io::write_stack(command.output, stack)) terminal.warn(loss);
-  terminal.say(grouped(stack.slices.size()) + " slices, " + grouped(contours) + " contours");
+  terminal.say(counted(stack.slices.size(), "slice") + ", " + counted(contours, "contour"));
   terminal.say("wrote " + command.output.string());
   return ExitCode::ok;
 }

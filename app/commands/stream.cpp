@@ -27,11 +27,11 @@
 #include "app/server/shown_capture.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
-#include "app/unit.h"
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
 #include "io/stacks/edit.h"
 #include "io/surfaces.h"
+#include "io/unit.h"
 
 namespace loft::app {
 
@@ -107,7 +107,7 @@ class Stream {
       : command_(command),
         input_position_(position_of(command, session)),
         terminal_(command.quiet),
-        recorder_(metres_per_unit(command.unit).value_or(0.001), command.replay_rate),
+        recorder_(io::metres_per_unit(command.unit).value_or(0.001), command.replay_rate),
         capture_(setup(), std::move(session), feed_),
         saver_([this] { write_outputs(); }) {}
 

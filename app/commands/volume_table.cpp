@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "app/commands/label_volumes.h"
 #include "app/report.h"
-#include "app/unit.h"
 #include "io/bytes/atomic_file.h"
 #include "reconstruct/number_text.h"
 
@@ -15,11 +15,6 @@ namespace loft::app {
 namespace {
 
 using Row = std::array<std::string, 5>;
-
-double cubic_centimetres(double volume, const std::string& unit) {
-  const double centimetres = 100 * metres_per_unit(unit).value_or(0.001);
-  return volume * centimetres * centimetres * centimetres;
-}
 
 /// How many characters UTF-8 shows.
 std::size_t width(const std::string& text) {

@@ -14,26 +14,32 @@
 #include "app/options/completion.h"
 #include "app/options/help.h"
 #include "app/options/manual.h"
+#include "app/options/shared_options.h"
 #include "app/options/tree.h"
-#include "app/unit.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
 #include "io/stack.h"
 #include "io/stack_writer.h"
 #include "io/surfaces.h"
 #include "io/triangulations.h"
+#include "io/unit.h"
 #include "io/version.h"
 
 namespace loft::app {
 
 namespace {
 
+/// The heading of options that say what comes out, and how it is told.
+constexpr const char* results = "Results";
+constexpr const char* server = "Server";
+
 std::string footer() {
   return "Examples:\n"
          "  loft reconstruct skull.ndjson -o skull.glb\n"
-         "  loft reconstruct a.ndjson b.ndjson -o both.ply -o both.glb --unit um --json\n"
+         "  loft info plan.dcm\n"
+         "  loft reconstruct plan.dcm -o organs.glb -o '{label}.stl' --only 'Lung*'\n"
+         "  loft reconstruct labels.nii.gz -o labels.glb --smooth\n"
          "  loft check skull.ply --stack skull.ndjson\n"
-         "  loft info skull.ndjson\n"
          "  loft stream capture.ndjson --follow --session capture.session --view\n"
          "  loft triangulate world.geojson -o world.svg\n"
          "\n"
@@ -56,153 +62,49 @@ std::string footer() {
          "Results go to stdout, words to stderr. NO_COLOR is respected.";
 }
 
-/// Options for smaller or fewer triangles.
-void add_triangle_options(CLI::App& sub, loft::Options& options) {
-  CLI::Option* max_edge =
-      sub.add_option("--max-edge", options.max_edge,
-                     "Split edges between slices that are longer; contour edges stay")
-          ->type_name("LENGTH")
-          ->check(CLI::Validator(complain_of_length, ""));
-  CLI::Option* target_edge =
-      sub.add_option("--target-edge", options.target_edge,
-                     "Bring edges between slices near this length, with well-shaped triangles; "
-                     "contour edges stay")
-          ->type_name("LENGTH")
-          ->check(CLI::Validator(complain_of_length, ""));
-  CLI::Option* simplify =
-      sub.add_option("--simplify", options.simplify,
-                     "Remove vertices as long as the surface, contours included, moves by no more "
-                     "than this; 0 removes only what changes nothing")
-          ->type_name("TOLERANCE")
-          ->check(CLI::Validator(complain_of_distance, ""));
-  max_edge->excludes(target_edge)->excludes(simplify);
-  target_edge->excludes(simplify);
-}
-
-/// What is inside, and how the ends are closed.
-void add_slice_options(CLI::App& sub, loft::Options& options,
-                       std::optional<loft::Fill>* given_fill = nullptr) {
-  sub.add_option_function<std::string>(
-         "--fill",
-         [&options, given_fill](const std::string& fill) {
-           options.fill = fill == "nonzero"   ? loft::Fill::nonzero
-                          : fill == "evenodd" ? loft::Fill::even_odd
-                                              : loft::Fill::keyhole_aware;
-           if (given_fill != nullptr) *given_fill = options.fill;
-         },
-         "What is inside: nested contours are holes (evenodd, default), overlapping ones make "
-         "their union (nonzero), or as evenodd with holes that a channel joins to their outline "
-         "taken out (keyhole-aware)")
-      ->type_name("RULE")
-      ->check(CLI::IsMember({"evenodd", "nonzero", "keyhole-aware"}));
-  sub.add_option("--keyhole-width", options.keyhole_width,
-                 "How wide such a channel may be, in the unit of the input (default 1/1000 of "
-                 "the contour's diagonal)")
-      ->type_name("LENGTH")
-      ->check(CLI::Validator(complain_of_distance, ""));
-  sub.add_option(
-         "--tolerance", options.tolerance,
-         "Contours of a slice that run along each other all the way round within that share "
-         "of its width are one (default 1e-7; 0: only equal ones)")
-      ->type_name("SHARE")
-      ->check(CLI::Range(0.0, 0.01));
-  sub.add_option_function<std::string>(
-         "--cap",
-         [&options](const std::string& cap) {
-           options.cap = cap == "flat"     ? loft::Cap::flat
-                         : cap == "dome"   ? loft::Cap::dome
-                         : cap == "extend" ? loft::Cap::extend
-                                           : loft::Cap::open;
-         },
-         given_fill == nullptr
-             ? "What closes the first and last slice (default flat)"
-             : "What closes the first and last slice (default flat); extend: they go on for half "
-               "a gap, as slices of planning systems and voxels do")
-      ->type_name("CAP")
-      ->check(given_fill == nullptr ? CLI::IsMember({"flat", "dome", "open"})
-                                    : CLI::IsMember({"flat", "dome", "open", "extend"}));
-}
-
-/// What readers of other formats want to know.
-void add_read_options(CLI::App& sub, io::ReadOptions& options) {
-  sub.add_option_function<std::string>(
-         "--spacing", [&options](const std::string& text) { options.spacing = spacing(text); },
-         "Distances between pixel centres and between slices, for images that do not say them")
-      ->type_name("X,Y,Z")
-      ->check(CLI::Validator(complain_of_spacing, ""));
-  sub.add_option_function<std::string>(
-         "--outline",
-         [&options](const std::string& outline) {
-           options.outline = outline == "iso" ? io::Outline::iso_lines : io::Outline::edges;
-         },
-         "How masks are outlined: half way between pixel centres (iso, default), or along the "
-         "pixels' edges (edges)")
-      ->type_name("RULE")
-      ->check(CLI::IsMember({"iso", "edges"}));
-  sub.add_option("--z-property", options.z_property,
-                 "Property of GeoJSON that heights are in (default: ELEV, elevation, z, ...)")
-      ->type_name("NAME");
-  sub.add_option_function<std::string>(
-         "--close",
-         [&options](const std::string&) { options.open_lines = io::OpenLines::close_along_border; },
-         "Close isolines that end at the border of the data along it (border); otherwise they are "
-         "refused")
-      ->type_name("RULE")
-      ->check(CLI::IsMember({"border"}));
-  sub.add_option("--alignment", options.alignment,
-                 "Which alignment of the sections of a .jser file (default: the current one)")
-      ->type_name("NAME");
-}
-
-/// Which labels.
-void add_label_options(CLI::App& sub, std::vector<std::string>& only,
-                       std::vector<std::string>& except) {
-  sub.add_option("--only", only,
-                 "Only labels of that name, or like a pattern with * and ?; may be repeated; "
-                 "@FILE: a name a line")
-      ->type_name("LABEL")
-      ->allow_extra_args(false);
-  sub.add_option("--except", except, "No labels of that name, or like that pattern")
-      ->type_name("LABEL")
-      ->allow_extra_args(false);
-}
-
-/// How the surface goes from slice to slice.
-void add_slab_options(CLI::App& sub, loft::Options& options) {
-  sub.add_option_function<std::string>(
-         "--link",
-         [&options](const std::string& link) {
-           options.link = link == "auto"      ? loft::LinkRule::automatic
-                          : link == "overlap" ? loft::LinkRule::overlap
-                                              : loft::LinkRule::none;
-         },
-         "Which parts of neighbouring slices are joined: those that overlap, and those that belong "
-         "together by where they lie (auto, default); those that overlap; none, but for --links")
-      ->type_name("RULE")
-      ->check(CLI::IsMember({"auto", "overlap", "none"}));
-  sub.add_option("--max-shift", options.max_shift,
-                 "The farthest that --link auto moves a part sideways between two slices, in the "
-                 "unit of the input; by the parts' size where not given")
-      ->type_name("DISTANCE")
-      ->check(CLI::Validator(complain_of_distance, ""));
-  sub.add_flag("--smooth", options.smooth,
-               "Bend the surface between the slices as their neighbours suggest; it still passes "
-               "through every contour");
-}
-
 /// Adds `loft reconstruct`; the command is ready when the line has been parsed.
 CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
   sub->add_option("IN", command.inputs, "Stack files, or - for standard input")->required();
+  begin_group(*sub, results);
   sub->add_option("-o,--output", command.outputs,
                   "Output file, " + loft::io::surface_extensions() +
                       "; may be repeated; '{label}' in its name: a file a label")
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
+  sub->add_option("--unit", command.unit,
+                  "Unit of the input, for glTF's metres (default: what the stack says, or mm): " +
+                      std::string(io::unit_names))
+      ->type_name("UNIT")
+      ->check(CLI::Validator(complain_of_unit, ""));
+  sub->add_option("--csv", command.volumes,
+                  "Write a table of volumes: label, slices, contours, cm^3 and the unit's, area")
+      ->type_name("FILE");
+  sub->add_flag("--strict", command.strict,
+                "Exit with 3 if no surface could be made of a label (the others are written)");
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  sub->add_flag("--slabs", command.slabs, "List all slabs and their links in it");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   add_label_options(*sub, command.only, command.except);
   add_read_options(*sub, command.read);
+  sub->add_flag_callback(
+      "--merge", [&command] { command.read.unlabelled = io::Unlabelled::keep; },
+      "Several files are one stack; otherwise contours without a label take the name of "
+      "their file");
+  sub->add_option("--height-tolerance", command.options.height_tolerance,
+                  "Heights that differ by no more than that share of the least proper gap are one "
+                  "(default 1e-4; 0: only equal ones)")
+      ->type_name("SHARE")
+      ->check(CLI::Range(0.0, 0.1));
   add_slice_options(*sub, command.options, &command.read.fill);
+  add_slab_options(*sub, command.options);
+  sub->add_option("--links", command.links,
+                  "Contours to join or to keep apart: a line {\"from\": [slice, contour], "
+                  "\"to\": [slice, contour], \"link\": true or false} each")
+      ->type_name("FILE");
+  add_triangle_options(*sub, command.options);
+  begin_group(*sub, "Time and memory");
   sub->add_option("--threads", command.options.threads,
                   "Threads that work at the same time; 0 (default): as many as the machine has")
       ->type_name("N")
@@ -219,34 +121,18 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   sub->add_flag_callback("--in-memory", memory(Memory::in_memory),
                          "Read the stack as a whole, whatever its size")
       ->excludes(out);
-  add_slab_options(*sub, command.options);
-  sub->add_option("--links", command.links,
-                  "Contours to join or to keep apart: a line {\"from\": [slice, contour], "
-                  "\"to\": [slice, contour], \"link\": true or false} each")
-      ->type_name("FILE");
-  add_triangle_options(*sub, command.options);
-  sub->add_option("--unit", command.unit,
-                  "Unit of the input, for glTF's metres (default: what the stack says, or mm): " +
-                      std::string(unit_names))
-      ->type_name("UNIT")
-      ->check(CLI::Validator(complain_of_unit, ""));
-  sub->add_option("--height-tolerance", command.options.height_tolerance,
-                  "Heights that differ by no more than that share of the least proper gap are one "
-                  "(default 1e-4; 0: only equal ones)")
-      ->type_name("SHARE")
-      ->check(CLI::Range(0.0, 0.1));
-  sub->add_flag_callback(
-      "--merge", [&command] { command.read.unlabelled = io::Unlabelled::keep; },
-      "Several files are one stack; otherwise contours without a label take the name of "
-      "their file");
-  sub->add_option("--csv", command.volumes,
-                  "Write a table of volumes: label, slices, contours, cm^3 and the unit's, area")
-      ->type_name("FILE");
-  sub->add_flag("--strict", command.strict,
-                "Exit with 3 if no surface could be made of a label (the others are written)");
-  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
-  sub->add_flag("--slabs", command.slabs, "List all slabs and their links in it");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  sub->footer(
+      "Examples:\n"
+      "  A plan: the organs at risk, a file each, their volumes as the planning system has them\n"
+      "    loft reconstruct plan.dcm -o '{label}.stl' --except 'PTV*' --cap extend --csv v.csv\n"
+      "  A segmentation: all labels in their colours, rounded between the slices\n"
+      "    loft reconstruct labels.nii.gz -o labels.glb --smooth\n"
+      "  Traced sections, in micrometres\n"
+      "    loft reconstruct dendrite.jser -o dendrite.glb --only 'd0*' --unit um\n"
+      "  The layers of a part, for printing or simulation\n"
+      "    loft reconstruct part.cli -o part.stl --simplify 0.01\n"
+      "  Scanned cross-sections in space, with even triangles\n"
+      "    loft reconstruct points.csv -o hull.ply --target-edge 2");
   return sub;
 }
 
@@ -254,17 +140,23 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
 CLI::App* add_convert(CLI::App& app, ConvertCommand& command) {
   CLI::App* sub = app.add_subcommand("convert", "Write a stack of any format as another one");
   sub->add_option("IN", command.inputs, "Stack files, or - for standard input")->required();
+  begin_group(*sub, results);
   sub->add_option("-o,--output", command.output,
                   "Output file, " + loft::io::stack_writer_extensions())
       ->required()
       ->type_name("OUT");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   add_label_options(*sub, command.only, command.except);
   add_read_options(*sub, command.read);
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   sub->footer(
       "Examples:\n"
-      "  loft convert plan.dcm -o plan.ndjson --only 'Lung*'\n"
-      "  loft convert labels.nii.gz -o outlines.csv");
+      "  The lungs of a plan, with all that the file says of them\n"
+      "    loft convert plan.dcm -o lungs.ndjson --only 'Lung*'\n"
+      "  Outlines of a mask, for a table\n"
+      "    loft convert labels.nii.gz -o outlines.csv\n"
+      "  Traced sections for programs of papers, or layers for a printer\n"
+      "    loft convert cell.mod -o cell.contour\n"
+      "    loft convert part.ndjson -o part.cli");
   return sub;
 }
 
@@ -302,12 +194,15 @@ CLI::App* add_slice(CLI::App& app, SliceCommand& command) {
 /// Options of commands that serve.
 template <class Command>
 void add_address_options(CLI::App& sub, Command& command) {
+  begin_group(sub, server);
   sub.add_option("--host", command.host,
                  "Address to listen on (default 127.0.0.1: this machine only; 0.0.0.0: anyone who "
                  "can reach it)")
       ->type_name("ADDRESS");
-  sub.add_option("--unit", command.unit,
-                 "Unit of the input, for glTF's metres (default mm): " + std::string(unit_names))
+  begin_group(sub, results);
+  sub.add_option(
+         "--unit", command.unit,
+         "Unit of the input, for glTF's metres (default mm): " + std::string(io::unit_names))
       ->type_name("UNIT")
       ->check(CLI::Validator(complain_of_unit, ""));
   sub.add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
@@ -318,10 +213,21 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
   CLI::App* sub = app.add_subcommand(
       "stream", "Keep a surface up to date while its slices come, change and go");
   sub->add_option("IN", command.input, "File of edits, a line each; - or nothing: standard input");
+  begin_group(*sub, "Edits");
   sub->add_flag("--follow", command.follows, "Wait for more at the end of IN: it grows");
   sub->add_flag_callback(
       "--no-input", [&command] { command.has_input = false; },
       "Read no edits but those that are posted");
+  sub->add_option("--session", command.session,
+                  "Keep every edit in this file before it is acknowledged; if it is there, go on "
+                  "from it, and in IN where it was")
+      ->type_name("FILE");
+  sub->add_option("--max-effort", command.most_effort,
+                  "Most that one edit may take, in millions of steps (default 2000, a minute or "
+                  "so); beyond, it is rejected")
+      ->type_name("N")
+      ->check(CLI::Range(0.001, 1e9));
+  begin_group(*sub, results);
   sub->add_option("-o,--output", command.outputs,
                   "Output file, " + loft::io::surface_extensions() +
                       "; written at the end and on SIGUSR1; may be repeated")
@@ -337,10 +243,7 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
   sub->add_option("--replay-rate", command.replay_rate, "Edits a second in it (default 20)")
       ->type_name("N")
       ->check(CLI::Validator(complain_of_rate, ""));
-  sub->add_option("--session", command.session,
-                  "Keep every edit in this file before it is acknowledged; if it is there, go on "
-                  "from it, and in IN where it was")
-      ->type_name("FILE");
+  begin_group(*sub, server);
   sub->add_flag_callback(
       "--view", [&command] { command.serves = true; },
       "Serve a page that shows the surface as it grows, and take edits by HTTP");
@@ -357,11 +260,6 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
                   "Largest body of a request, in MiB (default 16)")
       ->type_name("MIB")
       ->check(CLI::Range(1U, 1024U));
-  sub->add_option("--max-effort", command.most_effort,
-                  "Most that one edit may take, in millions of steps (default 2000, a minute or "
-                  "so); beyond, it is rejected")
-      ->type_name("N")
-      ->check(CLI::Range(0.001, 1e9));
   sub->add_option("--token", command.token,
                   "What those who send edits from beyond this machine must know (--host; drawn "
                   "and printed where not given): Authorization: Bearer TOKEN")
@@ -389,6 +287,7 @@ CLI::App* add_view(CLI::App& app, ViewCommand& command) {
   sub->add_option("FILE", command.file,
                   "Mesh file, " + loft::io::mesh_extensions() + ", or session file")
       ->required();
+  begin_group(*sub, server);
   sub->add_option("--port", command.port, "Port to serve on (default 8337; 0: any that is free)")
       ->type_name("PORT")
       ->check(CLI::Range(0, 65535));
@@ -430,6 +329,7 @@ CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
   CLI::App* sub = app.add_subcommand(
       "triangulate", "Make the constrained Delaunay triangulation of polylines and polygons");
   sub->add_option("IN", command.inputs, "Polyline files, or - for standard input")->required();
+  begin_group(*sub, results);
   sub->add_option("-o,--output", command.outputs,
                   "Output file, " + loft::io::triangulation_extensions() + "; may be repeated")
       ->required()
@@ -439,17 +339,17 @@ CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
                   "Points and polylines closer than that become one, default 0")
       ->type_name("DISTANCE")
       ->check(CLI::Validator(complain_of_epsilon, ""));
-  sub->add_flag_callback(
-      "--no-fill", [&command] { command.drawing.has_fill = false; },
-      "Leave regions uncoloured (SVG)");
-  sub->add_flag_callback(
-      "--no-edges", [&command] { command.drawing.has_edges = false; },
-      "Draw only the edges that lie on a polyline (SVG)");
-  sub->add_option("--width", command.drawing.width, "Width in pixels, default 1200 (SVG)")
-      ->type_name("PIXELS")
-      ->check(CLI::Range(10.0, 100'000.0));
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  begin_group(*sub, "Drawing (SVG)");
+  sub->add_flag_callback(
+      "--no-fill", [&command] { command.drawing.has_fill = false; }, "Leave regions uncoloured");
+  sub->add_flag_callback(
+      "--no-edges", [&command] { command.drawing.has_edges = false; },
+      "Draw only the edges that lie on a polyline");
+  sub->add_option("--width", command.drawing.width, "Width in pixels, default 1200")
+      ->type_name("PIXELS")
+      ->check(CLI::Range(10.0, 100'000.0));
   return sub;
 }
 
@@ -464,15 +364,31 @@ CLI::App* add_check(CLI::App& app, CheckCommand& command) {
                   "Also: is every contour vertex and edge of this stack in each mesh, exactly?")
       ->type_name("FILE");
   sub->add_flag("--json", command.json, "Print the result as one JSON object; a list of several");
+  sub->footer(
+      "Examples:\n"
+      "  loft check part.stl\n"
+      "  loft check skull.ply --stack skull.ndjson");
   return sub;
 }
 
 /// Adds `loft info`; the command is ready when the line has been parsed.
 CLI::App* add_info(CLI::App& app, InfoCommand& command) {
-  CLI::App* sub = app.add_subcommand("info", "Show counts, bounds, gaps and labels of files");
+  CLI::App* sub =
+      app.add_subcommand("info", "Show counts, bounds, gaps, labels and volumes of files");
   sub->add_option("FILE", command.files, "Stacks or meshes")->required();
-  add_read_options(*sub, command.read);
+  begin_group(*sub, results);
+  sub->add_flag_callback(
+      "--no-volumes", [&command] { command.volumes = false; },
+      "Leave out the volumes of labels, which take as long as their surfaces");
   sub->add_flag("--json", command.json, "Print the result as one JSON object; a list of several");
+  add_read_options(*sub, command.read);
+  sub->footer(
+      "A volume is what the surface encloses; as slabs, each slice is as thick as its gap, as\n"
+      "planning systems and counts of voxels have it (--cap extend makes such a surface).\n\n"
+      "Examples:\n"
+      "  loft info plan.dcm\n"
+      "  loft info stack.tif --spacing 0.1,0.1,0.5\n"
+      "  loft info part.cli part.stl");
   return sub;
 }
 

@@ -3,14 +3,14 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/unit.h"
+#include "io/unit.h"
 #include "mesh/admitted.h"
 
 namespace loft::app {
 
 std::string complain_of_unit(const std::string& unit) {
-  if (metres_per_unit(unit)) return {};
-  return "'" + unit + "' is no unit; known are " + std::string(unit_names);
+  if (io::metres_per_unit(unit)) return {};
+  return "'" + unit + "' is no unit; known are " + std::string(io::unit_names);
 }
 
 std::string complain_of_length(const std::string& text) {

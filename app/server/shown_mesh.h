@@ -4,8 +4,8 @@
 #include <filesystem>
 
 #include "app/server/shown.h"
-#include "app/unit.h"
 #include "io/meshes/labelled_mesh.h"
+#include "io/unit.h"
 #include "mesh/measure.h"
 #include "reconstruct/live/snapshot.h"
 

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "io/bytes/file.h"
 
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
@@ -41,6 +45,58 @@ std::string read_file(const std::filesystem::path& path) {
   content << file.rdbuf();
   if (file.bad()) throw FileError(Access::read, path, last_cause());
   return std::move(content).str();
+}
+
+namespace {
+
+/// A file that is open as long as the object lives.
+class Descriptor {
+ public:
+  explicit Descriptor(const std::filesystem::path& path) : number_(open(path.c_str(), O_RDONLY)) {}
+  ~Descriptor() {
+    if (number_ >= 0) close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+
+  [[nodiscard]] int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+}  // namespace
+
+FileBytes::FileBytes(const std::filesystem::path& path) {
+  constexpr std::uintmax_t large = std::uintmax_t{1} << 26;
+  std::error_code ignored;
+  const std::uintmax_t size = std::filesystem::file_size(path, ignored);
+  if (!ignored && size >= large) {
+    const Descriptor file(path);
+    void* const mapping = file.number() < 0
+                              ? MAP_FAILED
+                              : mmap(nullptr, size, PROT_READ, MAP_PRIVATE, file.number(), 0);
+    if (mapping != MAP_FAILED) {
+      mapping_ = mapping;
+      size_ = size;
+      return;
+    }
+  }
+  content_ = read_file(path);
+}
+
+FileBytes::~FileBytes() {
+  if (mapping_ != nullptr) munmap(mapping_, size_);
+}
+
+FileBytes::FileBytes(FileBytes&& other) noexcept
+    : content_(std::move(other.content_)),
+      mapping_(std::exchange(other.mapping_, nullptr)),
+      size_(std::exchange(other.size_, 0)) {}
+
+std::string_view FileBytes::view() const {
+  if (mapping_ != nullptr) return {static_cast<const char*>(mapping_), size_};
+  return content_;
 }
 
 std::string extension(const std::filesystem::path& path) {

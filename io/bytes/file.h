@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -29,6 +30,24 @@ class UnknownFormat : public Error {
  public:
   /// `known` lists the extensions that would do: `.ply .obj`.
   UnknownFormat(const std::filesystem::path& path, std::string_view known);
+};
+
+/// The whole content of a file, which is read, or, where it is large, mapped: its bytes then take
+/// no memory that others cannot have. A file must not get shorter meanwhile.
+class FileBytes {
+ public:
+  /// Throws FileError.
+  explicit FileBytes(const std::filesystem::path& path);
+  ~FileBytes();
+  FileBytes(FileBytes&& other) noexcept;
+  FileBytes& operator=(FileBytes&& other) = delete;
+
+  [[nodiscard]] std::string_view view() const;
+
+ private:
+  std::string content_;
+  void* mapping_ = nullptr;
+  std::size_t size_ = 0;  // of the mapping
 };
 
 /// The whole content of a file. Throws FileError.

@@ -7,14 +7,10 @@
 #include <array>
 #include <limits>
 
-#include "reconstruct/defect.h"
-
 namespace loft::io {
 
-namespace {
-
 /// A stream of zlib's that is given back in any case.
-class Inflater {
+class InflateStream::Inflater {
  public:
   Inflater(std::string_view bytes, std::string_view name, std::uint64_t offset)
       : bytes_(bytes), name_(name), offset_(offset) {
@@ -25,22 +21,17 @@ class Inflater {
   Inflater(const Inflater&) = delete;
   Inflater& operator=(const Inflater&) = delete;
 
-  std::string first(std::uint64_t most) {
-    std::string result;
-    std::array<char, 1 << 16> piece;
-    while (result.size() < most) {
-      const std::size_t room =
-          static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), most - result.size()));
-      const std::size_t count = fill(piece.data(), room);
-      result.append(piece.data(), count);
-      if (has_ended_) break;
-    }
-    return result;
+  std::size_t read(std::span<char> out) {
+    std::size_t count = 0;
+    while (count < out.size() && !has_ended_) count += fill(out.subspan(count));
+    return count;
   }
 
  private:
-  std::size_t fill(char* place, std::size_t room) {
-    stream_.next_out = reinterpret_cast<Bytef*>(place);
+  std::size_t fill(std::span<char> out) {
+    constexpr std::size_t most = std::numeric_limits<uInt>::max() / 2;
+    const std::size_t room = std::min(out.size(), most);
+    stream_.next_out = reinterpret_cast<Bytef*>(out.data());
     stream_.avail_out = static_cast<uInt>(room);
     while (stream_.avail_out > 0 && !has_ended_) {
       feed();
@@ -83,35 +74,68 @@ class Inflater {
   }
 
   std::string_view bytes_;
-  std::string_view name_;
+  std::string name_;
   std::uint64_t offset_;
   z_stream stream_{};
   std::size_t fed_ = 0;
   bool has_ended_ = false;
 };
 
-}  // namespace
+InflateStream::InflateStream(std::string_view bytes, std::string_view name, std::uint64_t offset)
+    : inflater_(std::make_unique<Inflater>(bytes, name, offset)) {}
+InflateStream::~InflateStream() = default;
+InflateStream::InflateStream(InflateStream&&) noexcept = default;
+InflateStream& InflateStream::operator=(InflateStream&&) noexcept = default;
+
+std::size_t InflateStream::read(std::span<char> out) { return inflater_->read(out); }
 
 bool is_gzip(std::string_view bytes) { return bytes.starts_with("\x1f\x8b\x08"); }
 
 std::string inflate_first(std::string_view bytes, std::uint64_t most, std::string_view name,
                           std::uint64_t offset) {
-  return Inflater(bytes, name, offset).first(most);
+  InflateStream stream(bytes, name, offset);
+  std::string result;
+  std::array<char, 1 << 16> piece;
+  while (result.size() < most) {
+    const std::size_t room =
+        static_cast<std::size_t>(std::min<std::uint64_t>(piece.size(), most - result.size()));
+    const std::size_t count = stream.read(std::span(piece).first(room));
+    result.append(piece.data(), count);
+    if (count < room) break;
+  }
+  return result;
 }
 
 std::string inflate_all(std::string_view bytes, std::uint64_t size, std::string_view name,
                         std::uint64_t offset) {
-  constexpr std::uint64_t best = 1100;  // deflate cannot pack more into a byte
-  const auto fail = [&](const std::string& held) {
-    throw InputError(std::string(name) + ": byte " + std::to_string(offset) + ": its header says " +
-                     std::to_string(size) + " bytes of pixels, " + held +
-                     "; it was cut off, or its sizes are wrong");
-  };
-  if (size / best > bytes.size())
-    fail(std::to_string(bytes.size()) + " packed ones cannot hold so many");
+  require_room_for(size, bytes, name, offset);
   std::string result = inflate_first(bytes, size, name, offset);
-  if (result.size() < size) fail("but packed there are " + std::to_string(result.size()));
+  if (result.size() < size) throw too_few_packed(size, result.size(), name, offset);
   return result;
+}
+
+namespace {
+
+InputError cut_off(std::uint64_t size, std::string_view name, std::uint64_t offset,
+                   const std::string& held) {
+  return InputError(std::string(name) + ": byte " + std::to_string(offset) + ": its header says " +
+                    std::to_string(size) + " bytes of pixels, " + held +
+                    "; it was cut off, or its sizes are wrong");
+}
+
+}  // namespace
+
+void require_room_for(std::uint64_t size, std::string_view bytes, std::string_view name,
+                      std::uint64_t offset) {
+  constexpr std::uint64_t best = 1100;  // deflate cannot pack more into a byte
+  if (size / best > bytes.size())
+    throw cut_off(size, name, offset,
+                  std::to_string(bytes.size()) + " packed ones cannot hold so many");
+}
+
+InputError too_few_packed(std::uint64_t size, std::uint64_t found, std::string_view name,
+                          std::uint64_t offset) {
+  return cut_off(size, name, offset, "but packed there are " + std::to_string(found));
 }
 
 }  // namespace loft::io

@@ -2,8 +2,11 @@
 #include "io/stacks/nifti.h"
 
 #include <algorithm>
+#include <limits>
+#include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/bytes/file.h"
 #include "io/bytes/inflate.h"
@@ -14,55 +17,53 @@ namespace loft::io {
 
 namespace {
 
-/// A file's bytes up to some place, unpacked where they are packed.
-class Unpacked {
- public:
-  Unpacked(std::string_view bytes, std::string_view name) : bytes_(bytes), name_(name) {}
-
-  /// The first ones; fewer if there are no more.
-  std::string_view first(std::uint64_t count) {
-    if (!is_gzip(bytes_)) return bytes_.substr(0, count);
-    unpacked_ = inflate_first(bytes_, count, name_);
-    return unpacked_;
-  }
-  /// All up to there.
-  std::string_view all(std::uint64_t count) {
-    if (is_gzip(bytes_)) {
-      unpacked_ = inflate_all(bytes_, count, name_);
-      return unpacked_;
-    }
-    if (bytes_.size() < count)
-      throw InputError(std::string(name_) + ": byte " + std::to_string(bytes_.size()) +
-                       ": the file ends here, but its header says that pixels go on up to byte " +
-                       std::to_string(count) + "; it was cut off, get it again");
-    return bytes_.substr(0, count);
-  }
-
- private:
-  std::string_view bytes_;
-  std::string_view name_;
-  std::string unpacked_;
-};
+/// The first bytes of a file, unpacked into `made` where they are packed; fewer if there are no
+/// more.
+std::string_view first_bytes(std::string_view bytes, std::uint64_t count, std::string_view name,
+                             std::string& made) {
+  if (!is_gzip(bytes)) return bytes.substr(0, count);
+  made = inflate_first(bytes, count, name);
+  return made;
+}
 
 /// The file with the pixels of a pair, which is named as the header.
-std::pair<std::string, std::string> read_pixel_file(const StackInput& input) {
+std::pair<FileBytes, std::string> read_pixel_file(const StackInput& input) {
   std::string stem = std::filesystem::path(input.name).filename().string();
   for (const std::string_view end : {".gz", ".hdr"})
     if (stem.ends_with(end)) stem.resize(stem.size() - end.size());
   for (const std::string_view end : {".img", ".img.gz"}) {
     const std::filesystem::path path = input.folder / (stem + std::string(end));
     std::error_code ignored;
-    if (std::filesystem::is_regular_file(path, ignored)) return {read_file(path), path.string()};
+    if (std::filesystem::is_regular_file(path, ignored)) return {FileBytes(path), path.string()};
   }
   throw InputError(input.name + ": its pixels are in a file beside it, " + stem +
                    ".img, which is not there");
 }
 
-std::uint64_t end_of_pixels(const NiftiHeader& header) {
+/// Gives the volume its pixels, those of a file.
+void set_pixels(NiftiHeader& header, std::string_view bytes, const std::string& name) {
   const auto size = byte_count(header.volume, header.pixels.type);
   if (!size || *size > std::numeric_limits<std::uint64_t>::max() / 2 - header.offset)
     throw InputError(header.volume.name + ": dim: more pixels than any file holds; save it again");
-  return header.offset + *size;
+  if (is_gzip(bytes)) {
+    header.pixels.bytes = bytes;
+    return set_packed_pixels(header.volume, header.pixels, {header.offset, name, 0});
+  }
+  if (bytes.size() < header.offset + *size)
+    throw InputError(name + ": byte " + std::to_string(bytes.size()) +
+                     ": the file ends here, but its header says that pixels go on up to byte " +
+                     std::to_string(header.offset + *size) + "; it was cut off, get it again");
+  header.pixels.bytes = bytes.substr(header.offset);
+  set_pixels(header.volume, header.pixels);
+}
+
+/// What the extensions behind a header say of labels.
+std::vector<VolumeLabel> labels_behind(const NiftiHeader& header, const StackInput& input) {
+  constexpr std::uint64_t enough = std::uint64_t{1} << 26;
+  std::string made;
+  const std::string_view bytes =
+      first_bytes(input.bytes, std::min(header.offset, enough), input.name, made);
+  return labels_in_xml(bytes.substr(std::min<std::uint64_t>(header.size, bytes.size())));
 }
 
 }  // namespace
@@ -77,18 +78,17 @@ bool begins_like_nifti(std::string_view bytes) {
 }
 
 Stack read_nifti(const StackInput& input, const ReadOptions& options) {
-  Unpacked file(input.bytes, input.name);
-  NiftiHeader header = read_nifti_header(file.first(nifti_header_size), input.name);
-  const std::uint64_t end = end_of_pixels(header);
-
-  std::pair<std::string, std::string> pixel_file;
-  if (header.is_pair) pixel_file = read_pixel_file(input);
-  Unpacked pixels(pixel_file.first, pixel_file.second);
-  const std::string_view bytes = header.is_pair ? pixels.all(end) : file.all(end);
-  header.pixels.bytes = bytes.substr(header.offset);
-  set_pixels(header.volume, header.pixels);
-  if (!header.is_pair && header.has_extensions)
-    header.volume.labels = labels_in_xml(bytes.substr(header.size, header.offset - header.size));
+  std::string made;
+  NiftiHeader header =
+      read_nifti_header(first_bytes(input.bytes, nifti_header_size, input.name, made), input.name);
+  std::optional<std::pair<FileBytes, std::string>> pixel_file;
+  if (header.is_pair) {
+    pixel_file.emplace(read_pixel_file(input));
+    set_pixels(header, pixel_file->first.view(), pixel_file->second);
+  } else {
+    set_pixels(header, input.bytes, input.name);
+    if (header.has_extensions) header.volume.labels = labels_behind(header, input);
+  }
   const bool is_scaled = header.pixels.slope != 1 || header.pixels.intercept != 0;
   set_level(header.volume, options, is_real(header.pixels.type) || is_scaled);
   note_world(header.volume, "RAS");

@@ -3,11 +3,11 @@
 
 #include <charconv>
 #include <cstring>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "io/bytes/file.h"
-#include "io/bytes/inflate.h"
 #include "io/stacks/nrrd_header.h"
 #include "io/volumes/outlines.h"
 
@@ -16,7 +16,7 @@ namespace loft::io {
 namespace {
 
 /// The file with the pixels, which is beside the header.
-std::string read_data_file(const StackInput& input, const std::string& name) {
+FileBytes read_data_file(const StackInput& input, const std::string& name) {
   const std::filesystem::path file(name);
   if (name == "LIST" || name.find('%') != std::string::npos)
     throw InputError(input.name +
@@ -27,7 +27,7 @@ std::string read_data_file(const StackInput& input, const std::string& name) {
   std::error_code ignored;
   if (!std::filesystem::is_regular_file(input.folder / file, ignored))
     throw InputError(input.name + ": data file: " + name + " is not there");
-  return read_file(input.folder / file);
+  return FileBytes(input.folder / file);
 }
 
 /// What is behind some lines and bytes.
@@ -60,9 +60,9 @@ std::string numbers_of(std::string_view text, std::uint64_t count, const std::st
   return bytes;
 }
 
-/// The pixels' bytes: those of the file, or what is put into `made`.
-std::string_view pixel_bytes(NrrdHeader& header, std::string_view data, std::uint64_t offset,
-                             std::string& made) {
+/// Gives the volume its pixels: those of the file, or what is put into `made`.
+void set_pixels(NrrdHeader& header, std::string_view data, const std::string& data_name,
+                std::uint64_t offset, std::string& made) {
   const std::string& name = header.volume.name;
   const auto size = byte_count(header.volume, header.pixels.type);
   if (!size) throw InputError(name + ": sizes: more pixels than any file holds");
@@ -70,17 +70,17 @@ std::string_view pixel_bytes(NrrdHeader& header, std::string_view data, std::uin
     made = numbers_of(data, *size / size_of(header.pixels.type), name);
     header.pixels.type = PixelType::f64;
     header.pixels.order = std::endian::native;
-    return made;
-  }
-  if (header.encoding == NrrdHeader::Encoding::gzip) {
-    made = inflate_all(data, *size, name, offset);
-    return made;
-  }
-  if (data.size() < *size)
+    data = made;
+  } else if (header.encoding == NrrdHeader::Encoding::gzip) {
+    header.pixels.bytes = data;
+    return set_packed_pixels(header.volume, header.pixels, {0, data_name, offset});
+  } else if (data.size() < *size) {
     throw InputError(name + ": sizes: pixels take " + std::to_string(*size) + " bytes, but only " +
                      std::to_string(data.size()) +
                      " are there; the file was cut off, get it again");
-  return data.substr(0, *size);
+  }
+  header.pixels.bytes = data;
+  set_pixels(header.volume, header.pixels);
 }
 
 }  // namespace
@@ -91,20 +91,21 @@ Stack read_nrrd(const StackInput& input, const ReadOptions& options) {
   if (!begins_like_nrrd(input.bytes))
     throw InputError(input.name + ": byte 0: does not begin with NRRD000; save it again as .nrrd");
   NrrdHeader header = read_nrrd_header(input.bytes, input.name);
-  std::string data_file;
+  std::optional<FileBytes> data_file;
   std::string_view data = input.bytes.substr(header.size);
   std::uint64_t offset = header.size;
+  std::string data_name = input.name;
   if (!header.data_file.empty()) {
-    data_file = read_data_file(input, header.data_file);
-    data = data_file;
+    data_file.emplace(read_data_file(input, header.data_file));
+    data = data_file->view();
+    data_name = (input.folder / header.data_file).string();
     offset = 0;
   }
   const std::string_view behind = skipped(data, header);
   offset += data.size() - behind.size();
   std::string made;
   const bool is_real_type = is_real(header.pixels.type);
-  header.pixels.bytes = pixel_bytes(header, behind, offset, made);
-  set_pixels(header.volume, header.pixels);
+  set_pixels(header, behind, data_name, offset, made);
   header.volume.labels = segments_of(header);
   set_level(header.volume, options, is_real_type);
   if (!header.space.empty()) note_world(header.volume, header.space);

@@ -2,11 +2,15 @@
 #include "io/volumes/raw_pixels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "io/bytes/inflate.h"
 #include "io/bytes/little_endian.h"
 
 namespace loft::io {
@@ -96,18 +100,113 @@ std::optional<std::uint64_t> byte_count(const Volume& volume, PixelType type) {
   return count;
 }
 
+namespace {
+
+/// Turns bytes into the pixels of a slice.
+class Decoding {
+ public:
+  Decoding(const Volume& volume, const RawPixels& pixels)
+      : decode_(decoder(pixels.type)),
+        order_(pixels.order),
+        slope_(pixels.slope),
+        intercept_(pixels.intercept),
+        size_(size_of(pixels.type)),
+        step_(pixels.layers_first ? size_ * volume.layers : size_),
+        slice_step_(std::uint64_t{volume.columns} * volume.rows * step_),
+        layer_step_(pixels.layers_first ? size_ : slice_step_ * volume.slices) {}
+
+  /// Where a slice of a layer begins.
+  [[nodiscard]] std::uint64_t place(std::uint32_t slice, std::uint32_t layer) const {
+    return layer * layer_step_ + slice * slice_step_;
+  }
+  /// The bytes of a slice, with those of the layers that are side by side with it.
+  [[nodiscard]] std::uint64_t slice_size() const { return slice_step_; }
+
+  void operator()(const char* bytes, std::span<double> out) const {
+    decode_(bytes, step_, order_, out);
+    if (slope_ == 1 && intercept_ == 0) return;
+    for (double& value : out) value = value * slope_ + intercept_;
+  }
+
+ private:
+  Decode decode_;
+  std::endian order_;
+  double slope_;
+  double intercept_;
+  std::uint64_t size_;
+  std::uint64_t step_;
+  std::uint64_t slice_step_;
+  std::uint64_t layer_step_;
+};
+
+/// Unpacks slice after slice.
+class SliceUnpacker {
+ public:
+  SliceUnpacker(std::string_view bytes, Packing packing, std::uint64_t slices,
+                std::uint64_t slice_size)
+      : bytes_(bytes),
+        packing_(std::move(packing)),
+        size_(slices * slice_size),
+        slice_(slice_size) {}
+
+  /// The bytes of slice k, until another one is asked for. Going back begins anew.
+  const char* operator()(std::uint32_t k) {
+    if (!stream_ || k + 1 < count_) begin();
+    for (; count_ <= k; ++count_) {
+      const std::size_t found = stream_->read(slice_);
+      if (found < slice_.size())
+        throw too_few_packed(size_, count_ * slice_.size() + found, packing_.name, packing_.offset);
+    }
+    return slice_.data();
+  }
+
+ private:
+  void begin() {
+    stream_.emplace(bytes_, packing_.name, packing_.offset);
+    count_ = 0;
+    std::array<char, 1 << 16> skipped;
+    for (std::uint64_t left = packing_.before; left > 0;) {
+      const std::size_t room =
+          static_cast<std::size_t>(std::min<std::uint64_t>(left, skipped.size()));
+      if (stream_->read(std::span(skipped).first(room)) < room)
+        throw too_few_packed(size_, 0, packing_.name, packing_.offset);
+      left -= room;
+    }
+  }
+
+  std::string_view bytes_;
+  Packing packing_;
+  std::uint64_t size_;
+  std::vector<char> slice_;  // the last one that was unpacked
+  std::optional<InflateStream> stream_;
+  std::uint32_t count_ = 0;  // of slices unpacked
+};
+
+}  // namespace
+
 void set_pixels(Volume& volume, const RawPixels& pixels) {
-  const std::uint64_t size = size_of(pixels.type);
-  const std::uint64_t slice_pixels = std::uint64_t{volume.columns} * volume.rows;
-  const std::uint64_t step = pixels.layers_first ? size * volume.layers : size;
-  const std::uint64_t layer_step = pixels.layers_first ? size : size * slice_pixels * volume.slices;
-  const bool is_scaled = pixels.slope != 1 || pixels.intercept != 0;
-  volume.read = [=, decode = decoder(pixels.type)](std::uint32_t slice, std::uint32_t layer,
-                                                   std::span<double> out) {
-    decode(pixels.bytes.data() + layer * layer_step + slice * slice_pixels * step, step,
-           pixels.order, out);
-    if (!is_scaled) return;
-    for (double& value : out) value = value * pixels.slope + pixels.intercept;
+  volume.read = [decoding = Decoding(volume, pixels), bytes = pixels.bytes](
+                    std::uint32_t slice, std::uint32_t layer, std::span<double> out) {
+    decoding(bytes.data() + decoding.place(slice, layer), out);
+  };
+}
+
+void set_packed_pixels(Volume& volume, const RawPixels& pixels, const Packing& packing) {
+  const Decoding decoding(volume, pixels);
+  const std::uint64_t size = byte_count(volume, pixels.type).value();
+  if (volume.layers > 1 && !pixels.layers_first) {
+    const auto all = std::make_shared<const std::string>(
+        inflate_all(pixels.bytes, packing.before + size, packing.name, packing.offset));
+    volume.read = [=](std::uint32_t slice, std::uint32_t layer, std::span<double> out) {
+      decoding(all->data() + packing.before + decoding.place(slice, layer), out);
+    };
+    return;
+  }
+  require_room_for(packing.before + size, pixels.bytes, packing.name, packing.offset);
+  const auto unpack =
+      std::make_shared<SliceUnpacker>(pixels.bytes, packing, volume.slices, decoding.slice_size());
+  volume.read = [=](std::uint32_t slice, std::uint32_t layer, std::span<double> out) {
+    decoding((*unpack)(slice) + decoding.place(0, layer), out);
   };
 }
 

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "io/stacks/read_options.h"
@@ -19,7 +20,7 @@ enum class PixelType { u8, i8, u16, i16, u32, i32, u64, i64, f32, f64 };
 
 /// Pixels as files have them, x first, then y, then z.
 struct RawPixels {
-  std::string_view bytes;  ///< exactly those of columns * rows * slices * layers pixels
+  std::string_view bytes;  ///< those of columns * rows * slices * layers pixels
   PixelType type = PixelType::u8;
   std::endian order = std::endian::little;
   bool layers_first =
@@ -33,6 +34,18 @@ struct RawPixels {
 
 /// Makes them the volume's pixels; the bytes must outlive it.
 void set_pixels(Volume& volume, const RawPixels& pixels);
+
+/// Where pixels are in what gzip or zlib has packed.
+struct Packing {
+  std::uint64_t before = 0;  ///< bytes in front of them, unpacked
+  std::string name;          ///< of the file, for messages
+  std::uint64_t offset = 0;  ///< of the packed bytes in it, for messages
+};
+
+/// The same for pixels whose bytes are packed. They are unpacked slice by slice, as these are asked
+/// for, but for whole layers behind each other, which are in memory. Throws InputError where the
+/// packed bytes cannot hold so many; Volume::read does where they do not.
+void set_packed_pixels(Volume& volume, const RawPixels& pixels, const Packing& packing);
 
 /// Decides what the values are, once all else is there: the options' level counts, then pixels that
 /// are no whole numbers but from 0 to 1 are shares, of which half is inside; else they are labels.

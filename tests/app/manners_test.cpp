@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 
 #include "tests/app/program.h"
@@ -68,6 +69,37 @@ TEST(Manners, DocumentsTellOfEveryOption) {
                             "\\fB\\-\\-no\\-fill\\fR", "Exit codes"})
     EXPECT_THAT(manual, HasSubstr(words));
   EXPECT_EQ(run(folder, "completion tcsh").exit_code, 2);
+}
+
+TEST(Manners, HelpShowsTheOptionsOfACommandUnderHeadings) {
+  const Folder folder;
+  EXPECT_THAT(run(folder, "reconstruct --help").out,
+              AllOf(HasSubstr("\nLabels:\n"), HasSubstr("\nTriangles:\n"), HasSubstr("--smooth")));
+  EXPECT_THAT(run(folder, "convert --help").out,
+              AllOf(HasSubstr("\nReading:\n"), Not(HasSubstr("--smooth")), HasSubstr("--only")));
+}
+
+TEST(Manners, ExamplesInHelpUseOptionsThatAreThere) {
+  const Folder folder;
+  std::size_t options = 0;
+  for (const std::string command :
+       {"", "reconstruct", "convert", "slice", "info", "check", "stream", "view"}) {
+    std::istringstream lines(run(folder, "help " + command).out);
+    for (std::string line; std::getline(lines, line);) {
+      const std::size_t begin = line.find("  loft ");
+      if (begin == std::string::npos || line.find_first_not_of(' ') != begin + 2) continue;
+      std::istringstream words(line);
+      std::string used;
+      words >> used >> used;
+      const std::string help = run(folder, "help " + used).out;
+      for (std::string word; words >> word;) {
+        if (word[0] != '-') continue;
+        ++options;
+        EXPECT_THAT(help, HasSubstr(word)) << line;
+      }
+    }
+  }
+  EXPECT_GT(options, 20U);
 }
 
 TEST(Manners, InfoAndCheckTakeSeveralFiles) {

@@ -2,6 +2,8 @@
 // `loft reconstruct --out-of-core` makes what it makes in memory.
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -40,6 +42,27 @@ TEST(OutOfCore, WritesTheSameBytesAndReport) {
                                     " --fill nonzero --cap open", " --target-edge 0.7"})
     expect_same(folder, "--merge a.ndjson b.ndjson" + options);
 }
+
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+TEST(OutOfCore, VolumesMayBeLargerThanMemory) {
+  const Folder folder;
+  const std::string header =
+      "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 512 512 400\nspacings: 1 1 1\nencoding: raw\n\n";
+  constexpr std::size_t slice_size = std::size_t{512} * 512;
+  std::string front = header + std::string(3 * slice_size, '\0');
+  for (const std::size_t k : {1U, 2U})
+    for (const std::size_t y : {5U, 6U, 7U})
+      front.replace(header.size() + k * slice_size + y * 512 + 10, 3, "\1\1\1");
+  const auto path = folder.write("large.nrrd", front);
+  std::filesystem::resize_file(path, header.size() + 400 * slice_size);  // a hole of 100 MB
+  const std::string program = std::getenv("LOFT");
+  const std::string in_60_megabytes = "cd '" + (folder / "").string() +
+                                      "' && ulimit -d 60000 && '" + program +
+                                      "' reconstruct large.nrrd -o out.ply --threads 1 -q";
+  ASSERT_EQ(std::system((in_60_megabytes + " --out-of-core").c_str()), 0);
+  EXPECT_EQ(run(folder, "check out.ply").exit_code, 0);
+}
+#endif
 
 TEST(OutOfCore, WritesAllLabelsIntoOneFile) {
   const Folder folder;

@@ -100,6 +100,44 @@ TEST(Stacks, VolumesAreATable) {
   EXPECT_THAT(content(folder / "volumes.csv"), HasSubstr("lung/left,3,3,3,3,cm,"));
 }
 
+TEST(Info, GivesBothVolumes) {
+  const Folder folder;
+  static_cast<void>(folder.write(
+      "in.ndjson", two_labels() + R"({"z":3,"contours":[[[0,20],[1,20],[0,21]]],"labels":["tip"]})"
+                                  "\n"));
+  const auto labels = nlohmann::json::parse(run(folder, "info in.ndjson --json").out)["labels"];
+  EXPECT_EQ(labels[1]["label"], "lung/left");
+  EXPECT_DOUBLE_EQ(labels[1]["volume"], 2.5) << "ends half way to the slice without it";
+  EXPECT_DOUBLE_EQ(labels[1]["slab_volume"], 3);
+  EXPECT_TRUE(labels[2]["slab_volume"].is_null() || labels[2]["volume"] > 0);
+  EXPECT_THAT(run(folder, "info in.ndjson").out, HasSubstr("volume 2.5 cm^3, as slabs 3"));
+  const Outcome without = run(folder, "info in.ndjson --json --no-volumes");
+  EXPECT_TRUE(nlohmann::json::parse(without.out)["labels"][1]["volume"].is_null());
+}
+
+TEST(Info, SaysWhyThereIsNoVolume) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", slice(0, ring(4)) + '\n'));
+  const Outcome info = run(folder, "info in.ndjson");
+  EXPECT_EQ(info.exit_code, 0);
+  EXPECT_THAT(info.out, HasSubstr("no surface: "));
+}
+
+TEST(Convert, WritesLayersAndPlanes) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", two_labels()));
+  const Outcome cli = run(folder, "convert in.ndjson -o out.cli");
+  ASSERT_EQ(cli.exit_code, 0) << cli.err;
+  EXPECT_THAT(cli.err, HasSubstr("CLI has no colours"));
+  const Outcome planes = run(folder, "convert in.ndjson -o out.contour");
+  ASSERT_EQ(planes.exit_code, 0) << planes.err;
+  EXPECT_THAT(planes.err, HasSubstr("1 is 'heart', 2 is 'lung/left'"));
+  EXPECT_EQ(run(folder, "reconstruct out.cli -o out.ply").exit_code, 0);
+  EXPECT_EQ(run(folder, "check out.ply").exit_code, 0);
+  const auto info = nlohmann::json::parse(run(folder, "info out.contour --json").out);
+  EXPECT_EQ(info["labels"][1]["slab_volume"], 3);
+}
+
 TEST(Convert, GivesTheSameStack) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", two_labels()));

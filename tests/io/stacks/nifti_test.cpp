@@ -3,7 +3,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <array>
 #include <cmath>
@@ -12,12 +11,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/io/bytes/gzipped.h"
 #include "tests/io/stacks/readers.h"
 
 namespace loft::io {
 namespace {
 
 using testing::append;
+using testing::gzipped;
 using ::testing::HasSubstr;
 using testing::read;
 
@@ -161,26 +162,6 @@ void expect_as_pixdim_says(const Stack& stack) {
     ASSERT_EQ(slice.contours.size(), 1U);
     expect_box(slice, 1, 5, 1.5, 4.5);
   }
-}
-
-/// By gzip, in as many members as asked for.
-std::string gzipped(const std::string& bytes, std::size_t members = 1) {
-  std::string result;
-  const std::size_t step = bytes.size() / members + 1;
-  for (std::size_t at = 0; at < bytes.size(); at += step) {
-    std::string part = bytes.substr(at, step);
-    std::string packed(part.size() + 100, '\0');
-    z_stream stream{};
-    EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 31, 8, Z_DEFAULT_STRATEGY), Z_OK);
-    stream.next_in = reinterpret_cast<Bytef*>(part.data());
-    stream.avail_in = static_cast<uInt>(part.size());
-    stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-    stream.avail_out = static_cast<uInt>(packed.size());
-    EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-    result.append(packed, 0, stream.total_out);
-    deflateEnd(&stream);
-  }
-  return result;
 }
 
 TEST(Nifti, WithoutFormsPixelsLieByTheirDistancesAlone) {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-namespace loft::app {
+namespace loft::io {
 
 /// The names that metres_per_unit() knows, and that it takes a number, too.
 constexpr std::string_view unit_names =
@@ -14,4 +14,4 @@ constexpr std::string_view unit_names =
 /// if it is neither.
 [[nodiscard]] std::optional<double> metres_per_unit(std::string_view unit);
 
-}  // namespace loft::app
+}  // namespace loft::io

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "app/unit.h"
+#include "io/unit.h"
 
 #include <array>
 #include <charconv>
@@ -7,7 +7,7 @@
 
 #include "mesh/admitted.h"
 
-namespace loft::app {
+namespace loft::io {
 
 std::optional<double> metres_per_unit(std::string_view unit) {
   struct Unit {
@@ -27,4 +27,4 @@ std::optional<double> metres_per_unit(std::string_view unit) {
   return metres;
 }
 
-}  // namespace loft::app
+}  // namespace loft::io
