@@ -35,7 +35,7 @@ void add(Measures& sum, const Measures& part) {
 ShownMesh::ShownMesh(std::filesystem::path file, std::string unit)
     : file_(std::move(file)),
       unit_(std::move(unit)),
-      metres_per_unit_(app::metres_per_unit(unit_).value_or(1)) {
+      metres_per_unit_(io::metres_per_unit(unit_).value_or(1)) {
   for (io::LabelledMesh& mesh : io::read_meshes(file_)) {
     add(sum_, measure(mesh.mesh));
     parts_.push_back(cut(std::move(mesh)));

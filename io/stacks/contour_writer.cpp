@@ -49,8 +49,11 @@ class Plane {
     for (std::size_t i = 0; i < region.loop_count(); ++i) {
       const auto loop = region.loop(i);
       std::size_t from = vertex(region, loop.back());
-      for (const std::uint32_t v : loop)
-        add_edge(std::exchange(from, vertex(region, v)), from, material);
+      for (const std::uint32_t v : loop) {
+        const std::size_t to = vertex(region, v);
+        add_edge(from, to, material);
+        from = to;
+      }
     }
   }
 

@@ -12,6 +12,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "io/bytes/decimal.h"
 #include "io/bytes/text.h"
 #include "io/bytes/utf8.h"
 #include "io/stacks/dicom_elements.h"
@@ -165,12 +166,20 @@ std::optional<double> to_number(std::string_view text) {
   return number;
 }
 
+std::optional<double> next_number(std::string_view& text) {
+  std::string_view left = text;
+  const std::optional<double> number = take_short_decimal(left);
+  if (!number || !(left.empty() || left.front() == '\\')) return to_number(next_value(text));
+  text = left.substr(std::min<std::size_t>(1, left.size()));
+  return number;
+}
+
 std::optional<std::vector<double>> numbers_of(DcmItem& item, const DcmTagKey& tag) {
   std::string_view text = trimmed_value_of(item, tag);
   if (text.empty()) return {};
   std::vector<double> numbers;
   while (!text.empty()) {
-    const auto number = to_number(next_value(text));
+    const auto number = next_number(text);
     if (!number) return {};
     numbers.push_back(*number);
   }

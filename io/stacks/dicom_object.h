@@ -58,6 +58,8 @@ class DicomObject {
 [[nodiscard]] std::string_view next_value(std::string_view& text);
 /// A decimal or integer string as a number; none if it is no number.
 [[nodiscard]] std::optional<double> to_number(std::string_view text);
+/// The number that next_value() would be; takes that, too.
+[[nodiscard]] std::optional<double> next_number(std::string_view& text);
 /// All numbers of an element of text; none where there is no element, or one is no number.
 [[nodiscard]] std::optional<std::vector<double>> numbers_of(DcmItem& item, const DcmTagKey& tag);
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "io/bytes/problems.h"
@@ -121,8 +122,8 @@ class StructureSet {
     }
     SpaceContour contour{
         {}, roi.label.name, "ROI " + roi.number + " contour " + std::to_string(index)};
-    if (!read_points(item, contour.points, path)) return;
     const auto count = to_number(trimmed_value_of(item, DCM_NumberOfContourPoints));
+    if (!read_points(item, count, contour.points, path)) return;
     if (count && *count != static_cast<double>(contour.points.size())) ++roi.miscounted;
     while (contour.points.size() > 1 && contour.points.front() == contour.points.back())
       contour.points.pop_back();
@@ -137,28 +138,30 @@ class StructureSet {
 
   static std::string in_words(std::string_view type) { return one_line(type.substr(0, 40)); }
 
-  bool read_points(DcmItem& item, std::vector<Vec3>& points, const std::string& path) {
+  /// `wanted`: how many there should be.
+  bool read_points(DcmItem& item, std::optional<double> wanted, std::vector<Vec3>& points,
+                   const std::string& path) {
     std::string_view text = trimmed_value_of(item, DCM_ContourData);
     const auto fail = [&](const std::string& message) {
       problems_.add(object_.name() + ": " + path + "/(3006,0050): " + message);
       return false;
     };
-    const auto count = static_cast<std::size_t>(std::ranges::count(text, '\\')) + 1;
-    if (text.empty()) return true;
-    if (count % 3 != 0)
-      return fail("has " + std::to_string(count) +
-                  " numbers, which are no triples x\\y\\z; export the structure again");
-    points.reserve(count / 3);
-    for (std::size_t i = 0; i < count; ++i) {
-      const std::string_view word = next_value(text);
-      const auto number = to_number(word);
+    constexpr std::size_t least = 6;  // bytes that a point takes
+    const double most = static_cast<double>(text.size() / least + 1);
+    points.reserve(static_cast<std::size_t>(std::clamp(wanted.value_or(0), 0.0, most)));
+    std::size_t count = 0;
+    for (; !text.empty(); ++count) {
+      std::string_view before = text;
+      const auto number = next_number(text);
       if (!number || !admitted::slice.admits(*number))
-        return fail("value " + std::to_string(i) + ", " + in_quotes(word) +
+        return fail("value " + std::to_string(count) + ", " + in_quotes(next_value(before)) +
                     ", is no number of a usable size; export the structure again");
-      if (i % 3 == 0) points.emplace_back();
-      points.back()[i % 3] = *number;
+      if (count % 3 == 0) points.emplace_back();
+      points.back()[count % 3] = *number;
     }
-    return true;
+    if (count % 3 == 0) return true;
+    return fail("has " + std::to_string(count) +
+                " numbers, which are no triples x\\y\\z; export the structure again");
   }
 
   /// `label 'Isocenter': left out 1 POINT; it has no closed contour`.

@@ -138,9 +138,9 @@ TEST(CliWriter, WritesNoExponents) {
 
 TEST(ContourWriter, SharesEdges) {
   const Written written = write(write_contour, two_labels());
-  EXPECT_EQ(written.text.substr(0, 26), "3\n0 0 1 -0.1\n10 11\n4 0 0.1");
+  EXPECT_EQ(written.text.substr(0, 26), "3\n0 0 1 -0.1\n10 11\n4 4 0.1");
   // The shared side: label 1, room, is on the left of it as it goes down.
-  EXPECT_NE(written.text.find("\n3 0 1 2\n"), std::string::npos) << written.text;
+  EXPECT_NE(written.text.find("\n0 1 1 2\n"), std::string::npos) << written.text;
   EXPECT_THAT(written.losses,
               Contains(".contour has no names, and no colours: 1 is 'room', 2 is 'wall'"));
 }

@@ -6,6 +6,7 @@
 
 #include <numeric>
 
+#include "reconstruct/defect.h"
 #include "tests/io/bytes/gzipped.h"
 #include "tests/io/shapes.h"
 
