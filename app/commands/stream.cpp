@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
+#include <algorithm>
 #include <array>
 #include <chrono>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
 #include <memory>
 #include <optional>
@@ -29,7 +32,9 @@
 #include "app/terminal.h"
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
+#include "io/bytes/text.h"
 #include "io/stacks/edit.h"
+#include "io/stacks/stack_line.h"
 #include "io/surfaces.h"
 #include "io/unit.h"
 
@@ -56,6 +61,25 @@ void check_outputs(const StreamCommand& command) {
   if (io::extension(*command.replay) != ".glb")
     throw UsageError(command.replay->string() + ": a replay is a .glb file");
   io::check_writable(*command.replay);
+}
+
+/// What the first line of a file says of the stack holds where the command line says nothing.
+void take_over_stack_line(StreamCommand& command) {
+  constexpr std::streamsize most = 1 << 20;
+  if (!command.input || !std::filesystem::is_regular_file(*command.input)) return;
+  std::string line(most, '\0');
+  std::ifstream file(*command.input, std::ios::binary);
+  file.getline(line.data(), most);
+  line.resize(static_cast<std::size_t>(std::max<std::streamsize>(file.gcount() - 1, 0)));
+  const auto said = io::parse_stack_line(io::without_mark(line));
+  if (!said || !said->problems.empty()) return;
+  command.takes_stack_line = true;
+  const Stack& stack = said->stack;
+  const auto is_open = [&](const char* setting) { return !command.given.contains(setting); };
+  if (is_open("unit") && io::metres_per_unit(stack.unit)) command.unit = stack.unit;
+  if (is_open("fill") && stack.fill) command.options.fill = *stack.fill;
+  if (is_open("keyhole_width") && stack.keyhole_width)
+    command.options.keyhole_width = stack.keyhole_width;
 }
 
 /// Opens or begins the session; what it was begun with holds.
@@ -198,6 +222,7 @@ class Stream {
   void take(const EditSource& source, const std::string& line) {
     if (line.find_first_not_of(" \t\r") == std::string::npos) return;
     const std::string place = place_in(source);
+    if (io::begins_like_stack_line(line)) return look_at_stack(line, place);
     io::EditLine read = io::parse_edit_line(line);
     for (const std::string& problem : read.problems) complain(with_place(problem, place));
     if (!read.problems.empty()) {
@@ -207,6 +232,23 @@ class Stream {
     const Intake::Line edit{std::move(read.edit), place, source.position()};
     // What comes faster than it can be worked on waits where it comes from.
     while (!is_interrupted() && !intake_.hand_over(edit, tick)) look_after_outputs();
+  }
+
+  /// What a line that is no edit says of the whole stack has been taken over, if it could be.
+  void look_at_stack(const std::string& line, const std::string& place) {
+    const auto said = io::parse_stack_line(line);
+    if (!said) return complain(place + "\"stack\" is no object");
+    for (const std::string& problem : said->problems) complain(with_place(problem, place));
+    if (!said->problems.empty()) {
+      ++bad_lines_;
+      return;
+    }
+    if (said->stack.frame)
+      say(place + "a stream has no frame: coordinates stay those of the slices");
+    if (!command_.takes_stack_line && (!said->stack.unit.empty() || said->stack.fill))
+      say(place +
+          "unit and fill rule are taken from the first line of a file only; give --unit and "
+          "--fill");
   }
 
   void say(const std::string& words) {
@@ -346,6 +388,7 @@ ExitCode run(const StreamCommand& wanted) {
   catch_interrupts();
   ignore_closed_pipes();
   catch_output_requests();
+  take_over_stack_line(command);
   std::optional<io::Session> session = open_session(command);
   return Stream(command, std::move(session)).run();
 }

@@ -25,6 +25,7 @@
 #include "io/bytes/text.h"
 #include "io/gltf/slab_glb.h"
 #include "io/stacks/slices_json.h"
+#include "io/stacks/stack_line.h"
 #include "io/surfaces.h"
 
 namespace loft::app {
@@ -289,6 +290,7 @@ class Server::Routes {
       body.remove_prefix(std::min(end + 1, body.size()));
       ++count;
       if (text.find_first_not_of(" \t\r") == std::string_view::npos) continue;
+      if (io::begins_like_stack_line(text)) continue;  // no edit: the capture has its settings
       Line& line = lines.emplace_back(Line{count, io::parse_edit_line(text), {}, 200, {}});
       if (!line.read.problems.empty()) {
         line.status = 400;

@@ -231,6 +231,19 @@ void append_list(std::string& line, const char* key, const List& list, const App
 
 }  // namespace
 
+bool begins_like_stack_line(std::string_view line) {
+  constexpr std::string_view key = "\"stack\"";
+  const auto skip = [&line] {
+    line.remove_prefix(std::min(line.find_first_not_of(" \t\r"), line.size()));
+  };
+  line = without_mark(line);
+  skip();
+  if (!line.starts_with('{')) return false;
+  line.remove_prefix(1);
+  skip();
+  return line.starts_with(key);
+}
+
 std::optional<StackLine> parse_stack_line(std::string_view line) {
   return StackLineReader(line).read();
 }

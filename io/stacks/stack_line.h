@@ -17,6 +17,9 @@ struct StackLine {
   std::vector<std::string> problems;
 };
 
+/// Whether a line begins as one that parse_stack_line() reads. Cost: O(1).
+[[nodiscard]] bool begins_like_stack_line(std::string_view line);
+
 /// Reads a line `{"stack": {...}}`; none if the line is no object with that key. See slices_json.h.
 [[nodiscard]] std::optional<StackLine> parse_stack_line(std::string_view line);
 

@@ -36,6 +36,46 @@ TEST(Stream, EditsFromAPipeMakeTheSurfaceOfWhatIsLeft) {
   expect_surface_of(folder, leaning(1) + leaning(2) + leaning(3) + slice(9, ring(3)), "out.ply");
 }
 
+TEST(Stream, TheFirstLineOfAFileSaysUnitAndFill) {
+  const Folder folder;
+  const std::string about = R"({"stack": {"unit": "um", "fill": "nonzero"}})"
+                            "\n";
+  static_cast<void>(folder.write("in.ndjson", about + stack(3)));
+  const Outcome outcome = run(folder, "stream in.ndjson -o out.gltf --strict --json");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(json::parse(outcome.out)["edits"], 3);
+  ASSERT_EQ(run(folder, "reconstruct in.ndjson -o batch.gltf").exit_code, 0);
+  const auto extras = [&](const char* file) {
+    return json::parse(content(folder / file))["asset"]["extras"];
+  };
+  EXPECT_EQ(extras("out.gltf")["metres_per_unit"], 1e-6);
+  EXPECT_EQ(extras("out.gltf")["metres_per_unit"], extras("batch.gltf")["metres_per_unit"]);
+  EXPECT_EQ(extras("out.gltf")["settings"]["fill"], "nonzero");
+  ASSERT_EQ(run(folder, "stream in.ndjson -o given.gltf --unit cm --fill evenodd").exit_code, 0);
+  EXPECT_EQ(extras("given.gltf")["metres_per_unit"], 0.01);
+  EXPECT_EQ(extras("given.gltf")["settings"]["fill"], "evenodd");
+}
+
+TEST(Stream, WhatItCannotTakeFromSuchALineIsSaid) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << R"({"stack": {"unit": "um"}})" << '\n' << stack(2);
+  const Outcome piped = run(folder, "stream -o out.ply --strict");
+  EXPECT_EQ(piped.exit_code, 0);
+  EXPECT_THAT(piped.err, HasSubstr("standard input:1: unit and fill rule are taken from the first "
+                                   "line of a file only; give --unit and --fill"));
+  static_cast<void>(folder.write(
+      "in.ndjson", R"({"stack": {"unit": "um", "frame": [1,0,0,5, 0,1,0,0, 0,0,1,0, 0,0,0,1]}})"
+                   "\n" +
+                       stack(2)));
+  EXPECT_THAT(run(folder, "stream in.ndjson").err, HasSubstr("in.ndjson:1: a stream has no frame"));
+  static_cast<void>(folder.write("bad.ndjson", R"({"stack": {"unti": "um"}})"
+                                               "\n" +
+                                                   stack(2)));
+  const Outcome bad = run(folder, "stream bad.ndjson --strict");
+  EXPECT_EQ(bad.exit_code, 3);
+  EXPECT_THAT(bad.err, AllOf(HasSubstr("bad.ndjson:1: "), HasSubstr("unti")));
+}
+
 TEST(Stream, BadLinesAreNamedAndLeftOut) {
   const Folder folder;
   std::ofstream(folder / "stdin") << leaning(0) << "{\"z\": 1, \"contours\": [[[0, NaN]]]}\n"

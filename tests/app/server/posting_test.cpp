@@ -37,6 +37,15 @@ class Posting : public ::testing::Test {
   }
 };
 
+TEST_F(Posting, ALineOnTheWholeStackIsNoEdit) {
+  const auto answer = post(R"({"stack": {"unit": "um"}})"
+                           "\n" +
+                           stack(2));
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200) << answer->body;
+  EXPECT_EQ(json::parse(answer->body)["results"].size(), 2U);
+}
+
 TEST_F(Posting, AnswersEachLine) {
   auto answer = post(stack(3));
   ASSERT_TRUE(answer);
