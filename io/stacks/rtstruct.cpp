@@ -9,6 +9,7 @@
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/utf8.h"
+#include "io/stacks/pin_holes.h"
 #include "io/stacks/space_contours.h"
 #include "mesh/admitted.h"
 
@@ -22,13 +23,18 @@ struct Roi {
   StackLabel label;
   std::size_t contours = 0;                          // usable
   std::map<std::string, std::size_t> left_out = {};  // how many of what kind
+  PinHoles pin_holes = {};
   std::size_t miscounted = 0;
   bool is_listed = true;
 };
 
 class StructureSet {
  public:
-  explicit StructureSet(DicomObject& object) : object_(object) {}
+  StructureSet(DicomObject& object, const ReadOptions& options)
+      : object_(object),
+        has_pin_holes_(trimmed_value_of(object.data_set(), DCM_ManufacturerModelName) ==
+                           "rt-utils" &&
+                       options.fill.value_or(Fill::keyhole_aware) == Fill::keyhole_aware) {}
 
   Stack read() {
     read_rois();
@@ -97,9 +103,33 @@ class StructureSet {
     }
     if (!roi->label.colour) roi->label.colour = colour_of(item);
     const std::string path = "(3006,0039)[" + std::to_string(index) + "]/(3006,0040)[";
+    std::vector<SpaceContour> contours;
     for_each_item(sequence_of(item, DCM_ContourSequence), [&](DcmItem& contour, std::size_t i) {
-      read_contour(contour, *roi, i, path + std::to_string(i) + ']');
+      if (auto read = read_contour(contour, *roi, i, path + std::to_string(i) + ']'))
+        contours.push_back(std::move(*read));
     });
+    if (has_pin_holes_ && problems_.is_empty()) close_holes(contours, *roi);
+    add(std::move(contours), *roi);
+  }
+
+  static void close_holes(std::vector<SpaceContour>& contours, Roi& roi) {
+    // Single pixels are no side of a channel.
+    const std::size_t single = std::erase_if(
+        contours, [](const SpaceContour& contour) { return contour.points.size() < 2; });
+    if (single > 0) roi.left_out[too_few] += single;
+    const PinHoles closed = close_pin_holes(contours);
+    roi.pin_holes = {roi.pin_holes.count + closed.count, closed.width};
+  }
+
+  void add(std::vector<SpaceContour>&& contours, Roi& roi) {
+    for (SpaceContour& contour : contours) {
+      if (contour.points.size() < 3) {
+        ++roi.left_out[too_few];
+        continue;
+      }
+      ++roi.contours;
+      contours_.push_back(std::move(contour));
+    }
   }
 
   static std::optional<Colour> colour_of(DcmItem& item) {
@@ -112,27 +142,24 @@ class StructureSet {
     return Colour{byte(0), byte(1), byte(2)};
   }
 
-  void read_contour(DcmItem& item, Roi& roi, std::size_t index, const std::string& path) {
+  /// None for what is not closed, or has a number that is none.
+  std::optional<SpaceContour> read_contour(DcmItem& item, Roi& roi, std::size_t index,
+                                           const std::string& path) {
     const std::string_view type = trimmed_value_of(item, DCM_ContourGeometricType);
     const bool is_exclusive_or = type == "CLOSEDPLANAR_XOR";
     if (!is_exclusive_or && type != "CLOSED_PLANAR") {
       ++roi.left_out[type.empty() ? "contour of no type" : in_words(type)];
-      return;
+      return {};
     }
     SpaceContour contour{
         {}, roi.label.name, "ROI " + roi.number + " contour " + std::to_string(index)};
-    if (!read_points(item, contour.points, path)) return;
+    if (!read_points(item, contour.points, path)) return {};
     const auto count = to_number(trimmed_value_of(item, DCM_NumberOfContourPoints));
     if (count && *count != static_cast<double>(contour.points.size())) ++roi.miscounted;
     while (contour.points.size() > 1 && contour.points.front() == contour.points.back())
       contour.points.pop_back();
-    if (contour.points.size() < 3) {
-      ++roi.left_out["closed contour of less than 3 points"];
-      return;
-    }
-    is_exclusive_or_ = is_exclusive_or_ && is_exclusive_or;
-    ++roi.contours;
-    contours_.push_back(std::move(contour));
+    if (contour.points.size() > 2) is_exclusive_or_ = is_exclusive_or_ && is_exclusive_or;
+    return contour;
   }
 
   static std::string in_words(std::string_view type) { return one_line(type.substr(0, 40)); }
@@ -171,6 +198,10 @@ class StructureSet {
       add(std::to_string(roi.miscounted) +
           " contours have another number of points than the file says");
     if (!roi.is_listed) add("the file's list of ROIs does not have it");
+    if (roi.pin_holes.count > 0)
+      add("closed " + std::to_string(roi.pin_holes.count) + " channels to holes, " +
+          short_number(roi.pin_holes.width) +
+          " wide, as rt-utils draws them (--fill evenodd keeps them)");
     if (roi.contours == 0) add("it has no closed contour");
     if (!note.empty()) notes.push_back("label '" + roi.label.name + "': " + note);
   }
@@ -188,7 +219,10 @@ class StructureSet {
     return roi;
   }
 
+  static constexpr const char* too_few = "closed contour of less than 3 points";
+
   DicomObject& object_;
+  bool has_pin_holes_;
   std::vector<Roi> rois_;
   std::map<std::string, std::size_t, std::less<>> by_number_;
   std::vector<SpaceContour> contours_;
@@ -198,6 +232,8 @@ class StructureSet {
 
 }  // namespace
 
-Stack read_structure_set(DicomObject& object) { return StructureSet(object).read(); }
+Stack read_structure_set(DicomObject& object, const ReadOptions& options) {
+  return StructureSet(object, options).read();
+}
 
 }  // namespace loft::io
