@@ -22,14 +22,14 @@ constexpr std::int64_t most_width = 2 * line_width;
 constexpr double wide_length = 1.5;
 
 constexpr std::size_t steps_per_point = 2000;
+constexpr std::size_t steps_per_pair = 100;  // of sides: so they are few for each point
 
 /// Where the centres of pixels are along an axis.
 class Lattice {
  public:
-  /// None if the points are on no lattice. The smallest distance of two is that of pixels.
+  /// None if the points are on no lattice. All their distances are multiples of a pixel's.
   static std::optional<Lattice> of(const std::vector<SpaceContour>& contours, std::size_t axis) {
     constexpr double rounding = 1e-6;  // of decimals, compared to the largest
-    constexpr double off = 0.01;       // of a pixel
     std::vector<double> places;
     for (const SpaceContour& contour : contours)
       for (const Vec3& point : contour.points) places.push_back(point[axis]);
@@ -39,17 +39,13 @@ class Lattice {
     const double least =
         rounding * std::max({std::abs(places.front()), std::abs(places.back()), width});
     double pitch = width;
-    for (std::size_t i = 1; i < places.size(); ++i) {
-      const double gap = places[i] - places[i - 1];
-      if (gap > least) pitch = std::min(pitch, gap);
-    }
+    for (std::size_t i = 1; i < places.size() && pitch > least; ++i)
+      if (places[i] - places[i - 1] > least)
+        pitch = common_measure(places[i] - places[i - 1], pitch, least);
     if (!(pitch > least)) return {};
-    pitch = width / std::round(width / pitch);
-    const Lattice lattice{places.front(), pitch};
-    for (const double place : places) {
-      const double index = (place - lattice.origin) / lattice.pitch;
-      if (std::abs(index - std::round(index)) > off) return {};
-    }
+    const Lattice lattice{places.front(), width / std::round(width / pitch)};
+    for (const double place : places)
+      if (!lattice.has(place)) return {};
     return lattice;
   }
 
@@ -59,6 +55,24 @@ class Lattice {
 
   double origin;
   double pitch;
+
+ private:
+  static constexpr double off = 0.01;  // of a pixel
+
+  /// Of two lengths, by Euclid's algorithm; not more than `least` if there is none.
+  static double common_measure(double length, double measure, double least) {
+    while (measure > least) {
+      const double rest = std::abs(length - std::round(length / measure) * measure);
+      if (rest <= off * measure) break;
+      length = std::exchange(measure, rest);
+    }
+    return measure;
+  }
+
+  [[nodiscard]] bool has(double place) const {
+    const double pixels = (place - origin) / pitch;
+    return std::abs(pixels - std::round(pixels)) <= off;
+  }
 };
 
 /// The contours of one slice, on a lattice, as a network of points in which ways can be changed.
@@ -163,7 +177,8 @@ class PixelOutlines {
     const std::vector<Side> sides = long_sides();
     for (const Side& left : sides) {
       auto right = std::ranges::lower_bound(sides, left.x + line_width, {}, &Side::x);
-      for (; right != sides.end() && right->x <= left.x + most_width && take_steps(1); ++right) {
+      for (; right != sides.end() && right->x <= left.x + most_width && take_steps(steps_per_pair);
+           ++right) {
         const Channel channel{right->x - left.x, std::max(left.low, right->low),
                               std::min(left.high, right->high), left.from, right->from};
         if (left.is_up != right->is_up && is_long(channel.high - channel.low, channel.width))

@@ -131,8 +131,8 @@ class Finder {
     friend auto operator<=>(const Close&, const Close&) = default;
   };
 
-  /// Pairs of points that are further from each other along the ring, and have one within the width
-  /// of a side of the other; the nearest first.
+  /// Pairs of points that are further from each other along the ring, and within the width, or
+  /// within that of a side of the other where outlines are slanted; the nearest first.
   [[nodiscard]] std::vector<Close> close_points() const {
     const double reach = most_widening * width_;
     std::vector<std::size_t> order(ring_.size());
@@ -148,21 +148,19 @@ class Finder {
         const auto [i, j] = std::minmax(order[a], order[b]);
         const double between = ring_.length(i, j);
         if (std::min(between, ring_.length() - between) <= 2 * distance(p, q)) continue;
-        if (const double apart = nearest(i, j); apart <= width_) found.push_back({apart, i, j});
+        if (to_side(i, j) <= width_ || to_side(j, i) <= width_)
+          found.push_back({distance(p, q), i, j});
       }
     }
     std::ranges::sort(found);
     return found;
   }
 
-  /// From a point, or a side that ends there, to another one.
-  [[nodiscard]] double nearest(std::size_t i, std::size_t j) const {
-    const auto to_sides = [this](std::size_t point, std::size_t of) {
-      const Point p = ring_.at(point);
-      return std::min(distance(p, ring_.at(of + ring_.size() - 1), ring_.at(of)),
-                      distance(p, ring_.at(of), ring_.at(of + 1)));
-    };
-    return std::min(to_sides(i, j), to_sides(j, i));
+  /// From a point to the nearer one of two sides that meet in another.
+  [[nodiscard]] double to_side(std::size_t from, std::size_t to) const {
+    const Point p = ring_.at(from);
+    return std::min(distance(p, ring_.at(to + ring_.size() - 1), ring_.at(to)),
+                    distance(p, ring_.at(to), ring_.at(to + 1)));
   }
 
   /// From two points both ways, as long as the ring runs along itself.

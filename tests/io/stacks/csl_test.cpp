@@ -209,7 +209,7 @@ TEST(ContourFile, CountsLinesThatEnd) {
 TEST(ContourFile, RefusesPlanesThatAreNotParallel) {
   const std::string rest = " 0\n3 3\n0 0 0\n1 0 0\n0 0 0\n0 1 1 0\n1 2 1 0\n2 0 1 0\n";
   EXPECT_NE(
-      problem(read_contour, "2\n0 0 1" + rest + "0 1 0" + rest).find("turned by 90.00 degrees"),
+      problem(read_contour, "2\n0 0 1" + rest + "0 1 0" + rest).find("plane 2 most, by 90 degrees"),
       std::string::npos);
 }
 

@@ -27,6 +27,7 @@ struct Voxels {
   std::array<double, 3> origin;   ///< centre of the first one
   std::array<double, 3> spacing;  ///< negative where the axis runs the other way
   std::vector<int> values;
+  std::map<std::string, int> by_name = {};  ///< values of labels; else their ids are
 };
 
 std::string sample(const char* name) {
@@ -53,8 +54,8 @@ std::string inflated(const std::string& bytes) {
 Voxels chest() {
   const std::string bytes = testing::content(sample("slicer_chest.seg.nrrd"));
   const std::string header = bytes.substr(0, bytes.find("\n\n"));
-  const auto field = [&](const std::string& name) {
-    const std::size_t begin = header.find('\n' + name + ": ") + name.size() + 3;
+  const auto field = [&](const std::string& name, const std::string& colon = ": ") {
+    const std::size_t begin = header.find('\n' + name + colon) + name.size() + colon.size() + 1;
     return header.substr(begin, header.find('\n', begin) - begin);
   };
   Voxels voxels;
@@ -71,6 +72,11 @@ Voxels chest() {
                   &directions[5], &directions[6], &directions[7], &directions[8]),
       9);
   for (std::size_t i = 0; i < 3; ++i) voxels.spacing[i] = directions[4 * i];
+  for (int i = 0; i < 7; ++i) {
+    const std::string segment = "Segment" + std::to_string(i);
+    voxels.by_name[field(segment + "_Name", ":=")] =
+        std::stoi(field(segment + "_LabelValue", ":="));
+  }
   for (const char value : inflated(bytes.substr(header.size() + 2)))
     voxels.values.push_back(static_cast<unsigned char>(value));
   return voxels;
@@ -97,8 +103,7 @@ Voxels organs() {
   return voxels;
 }
 
-/// How many pixels are on the wrong side of outlines of any label. Labels are those of the stack,
-/// whose ids are voxels' values.
+/// How many pixels are on the wrong side of the outlines of a label.
 std::size_t count_wrong(const Voxels& voxels, const Stack& stack) {
   const auto& [columns, rows, slices] = voxels.sizes;
   EXPECT_EQ(voxels.values.size(), columns * rows * slices);
@@ -119,7 +124,8 @@ std::size_t count_wrong(const Voxels& voxels, const Stack& stack) {
           .first->second.add(contour.points, to_pixels);
     const int* const pixels = &voxels.values[k * columns * rows];
     for (const StackLabel& label : stack.labels) {
-      const int value = std::stoi(label.id);
+      const auto named = voxels.by_name.find(label.name);
+      const int value = named != voxels.by_name.end() ? named->second : std::stoi(label.id);
       const auto found = rasters.find(label.name);
       for (std::size_t i = 0; i < columns * rows; ++i)
         if ((found != rasters.end() && found->second[i]) != (pixels[i] == value)) ++wrong;
