@@ -38,10 +38,12 @@ class Lattice {
     const double width = places.back() - places.front();
     const double least =
         rounding * std::max({std::abs(places.front()), std::abs(places.back()), width});
-    double pitch = width;
-    for (std::size_t i = 1; i < places.size() && pitch > least; ++i)
-      if (places[i] - places[i - 1] > least)
-        pitch = common_measure(places[i] - places[i - 1], pitch, least);
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < places.size(); ++i)
+      if (places[i] - places[i - 1] > least) gaps.push_back(places[i] - places[i - 1]);
+    if (gaps.empty()) return {};
+    double pitch = *std::ranges::min_element(gaps);
+    for (const double gap : gaps) pitch = common_measure(gap, pitch, least);
     if (!(pitch > least)) return {};
     const Lattice lattice{places.front(), width / std::round(width / pitch)};
     for (const double place : places)
@@ -59,7 +61,7 @@ class Lattice {
  private:
   static constexpr double off = 0.01;  // of a pixel
 
-  /// Of two lengths, by Euclid's algorithm; not more than `least` if there is none.
+  /// Of a length and a shorter one, by Euclid's algorithm; not more than `least` if there is none.
   static double common_measure(double length, double measure, double least) {
     while (measure > least) {
       const double rest = std::abs(length - std::round(length / measure) * measure);

@@ -295,6 +295,12 @@ TEST(PinHoles, ClosedGiveTheMaskBackButForTheEndsOfLines) {
   }
 }
 
+TEST(PinHoles, AreFoundInWideImages) {
+  // A pixel is little, compared to where the farthest point is.
+  Contours contours{contour(ring(8, 4)), contour({{900, 5}, {901, 5}, {900, 906}})};
+  EXPECT_EQ(close_pin_holes(contours).count, 1U);
+}
+
 TEST(PinHoles, AreLeftWherePointsAreOnNoLattice) {
   Contours contours{contour(ring(8, 4)), contour({{30, 30}, {33, 30}, {30, 33}})};
   contours[1].points[1][0] += 0.4 * pitch;
