@@ -295,6 +295,33 @@ TEST(PinHoles, ClosedGiveTheMaskBackButForTheEndsOfLines) {
   }
 }
 
+TEST(PinHoles, AreGoneOnceTheyAreClosed) {
+  const auto seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937 random(seed);
+  const auto any = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
+  std::size_t count = 0;
+  for (int round = 0; round < 300; ++round) {
+    // Anything on a lattice, with long sides four or more apart.
+    Contours contours{contour({{50, 50}, {51, 50}, {51, 51}})};
+    for (int i = 0; i < 4; ++i) {
+      Pixels pixels;
+      for (int k = 0; k < 6; ++k) {
+        const int x = 4 * any(6);
+        pixels.insert(pixels.end(), {{x, any(24)}, {x, any(24)}});
+      }
+      contours.push_back(contour(pixels));
+    }
+    const std::size_t closed = close_pin_holes(contours).count;
+    ASSERT_EQ(close_pin_holes(contours).count, 0U) << "round " << round;
+    std::size_t points = 0;
+    for (const SpaceContour& each : contours) points += each.points.size();
+    ASSERT_LE(points, 3 + 4 * 12 + 2 * closed) << "round " << round;
+    count += closed;
+  }
+  EXPECT_GT(count, 0U);
+}
+
 TEST(PinHoles, AreFoundInWideImages) {
   // A pixel is little, compared to where the farthest point is.
   Contours contours{contour(ring(8, 4)), contour({{900, 5}, {901, 5}, {900, 906}})};
