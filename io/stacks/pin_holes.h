@@ -27,10 +27,11 @@ struct PinHoles {
 /// themselves stay.
 ///
 /// `contours` are those of one structure, of three points or more, or of two, which rt-utils draws
-/// around a row of pixels; what is left of less than three is for the caller to drop. Contours
-/// without such a channel stay as they are; others end up behind them, with all points but those
-/// between the ends of channels. Does nothing where points are not on a lattice of pixels. Cost:
-/// O(n log n); what would take more than 2000 steps a point stays as drawn.
+/// around a row of pixels; what is left of less than three is for the caller to drop. Those of one
+/// z are a slice; others are not looked at. Contours without such a channel stay as they are;
+/// others end up behind them, with all points but those between the ends of channels. Does nothing
+/// where points are not on a lattice of pixels. Cost: O(n log n); what would take more than 2000
+/// steps a point stays as drawn.
 PinHoles close_pin_holes(std::vector<SpaceContour>& contours);
 
 }  // namespace loft::io
