@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
+#include <charconv>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -30,6 +32,15 @@ namespace loft::io {
   result += one_line(word.substr(0, enough));
   result += word.size() > enough ? "...'" : "'";
   return result;
+}
+
+/// A length or an angle as messages show it: with three digits.
+[[nodiscard]] inline std::string short_number(double value) {
+  constexpr int digits = 3;
+  std::array<char, 32> text{};
+  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
+                                 std::chars_format::general, digits);
+  return {text.data(), end.ptr};
 }
 
 }  // namespace loft::io

@@ -33,7 +33,7 @@ Stack read_dicom(const StackInput& input, const ReadOptions& options) {
   const std::string sop_class = object.text(object.data_set(), DCM_SOPClassUID);
   const std::string modality = object.text(object.data_set(), DCM_Modality);
   if (sop_class == structure_set || (sop_class.empty() && modality == "RTSTRUCT"))
-    return read_structure_set(object);
+    return read_structure_set(object, options);
   if (sop_class == segmentation || sop_class == label_map_segmentation ||
       (sop_class.empty() && modality == "SEG"))
     return read_segmentation(object, options);

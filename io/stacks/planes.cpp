@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "io/bytes/text.h"
 #include "io/stacks/stack_builder.h"
 #include "reconstruct/defect.h"
 
@@ -36,27 +37,45 @@ double height(const ContourPlane& plane) {
   return (dot(unit(plane.normal), plane.normal) < 0 ? -1 : 1) * plane.offset / length;
 }
 
-/// Throws InputError where the planes are not parallel to the first.
+/// In degrees.
+double angle_between(const ContourPlane& one, const ContourPlane& other) {
+  const Vec3 a = unit(one.normal);
+  const Vec3 b = unit(other.normal);
+  const Vec3 normal = cross(a, b);
+  return std::atan2(std::sqrt(dot(normal, normal)), std::abs(dot(a, b))) * 180 / std::numbers::pi;
+}
+
+constexpr double parallel = 0.01;  // degrees: normals are written with few digits
+
+/// The planes that are not parallel to one of them.
+std::vector<std::size_t> turned_against(const ContourPlane& one,
+                                        const std::vector<ContourPlane>& planes) {
+  std::vector<std::size_t> turned;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    if (angle_between(one, planes[i]) > parallel) turned.push_back(i);
+  return turned;
+}
+
+/// Throws InputError where the planes are not parallel, with those that are not to most.
 void require_parallel(const std::vector<ContourPlane>& planes, std::string_view name) {
-  constexpr double tolerance = 0.01;  // degrees: normals are written with few digits
-  double worst = 0;
-  std::size_t plane = 0;
-  for (std::size_t i = 1; i < planes.size(); ++i) {
-    const Vec3 a = unit(planes[0].normal);
-    const Vec3 b = unit(planes[i].normal);
-    const Vec3 normal = cross(a, b);
-    const double angle =
-        std::atan2(std::sqrt(dot(normal, normal)), std::abs(dot(a, b))) * 180 / std::numbers::pi;
-    if (angle <= worst) continue;
-    worst = angle;
-    plane = i;
+  constexpr std::size_t tries = 64;
+  std::vector<std::size_t> turned = turned_against(planes.front(), planes);
+  if (turned.empty()) return;
+  std::size_t straight = 0;
+  const std::size_t step = (planes.size() + tries - 1) / tries;
+  for (std::size_t i = step; i < planes.size(); i += step) {
+    std::vector<std::size_t> others = turned_against(planes[i], planes);
+    if (others.size() >= turned.size()) continue;
+    turned = std::move(others);
+    straight = i;
   }
-  if (worst <= tolerance) return;
-  throw InputError(std::string(name) + ": its planes are not parallel: plane " +
-                   std::to_string(plane + 1) + " is turned by " +
-                   std::to_string(worst).substr(0, 5) +
-                   " degrees against plane 1; a stack has parallel slices: keep those of one "
-                   "direction");
+  const auto angle = [&](std::size_t i) { return angle_between(planes[straight], planes[i]); };
+  const std::size_t worst = *std::ranges::max_element(turned, {}, angle);
+  throw InputError(
+      std::string(name) + ": its planes are not parallel: " + std::to_string(turned.size()) +
+      " of " + std::to_string(planes.size()) + "; plane " + std::to_string(worst + 1) +
+      " most, by " + short_number(angle(worst)) + " degrees against plane " +
+      std::to_string(straight + 1) + "; a stack has parallel slices: keep those of one direction");
 }
 
 /// Columns are the axes of the slices: x, y, and the normal.

@@ -5,13 +5,16 @@
 #include <array>
 #include <map>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/utf8.h"
+#include "io/stacks/pin_holes.h"
 #include "io/stacks/space_contours.h"
 #include "mesh/admitted.h"
+#include "reconstruct/parallel.h"
 
 namespace loft::io {
 
@@ -23,13 +26,19 @@ struct Roi {
   StackLabel label;
   std::size_t contours = 0;                          // usable
   std::map<std::string, std::size_t> left_out = {};  // how many of what kind
+  PinHoles pin_holes = {};
   std::size_t miscounted = 0;
   bool is_listed = true;
 };
 
 class StructureSet {
  public:
-  explicit StructureSet(DicomObject& object) : object_(object) {}
+  StructureSet(DicomObject& object, const ReadOptions& options)
+      : object_(object),
+        has_pin_holes_(trimmed_value_of(object.data_set(), DCM_ManufacturerModelName) ==
+                           "rt-utils" &&
+                       options.fill.value_or(Fill::keyhole_aware) == Fill::keyhole_aware),
+        threads_(options.threads) {}
 
   Stack read() {
     read_rois();
@@ -98,9 +107,39 @@ class StructureSet {
     }
     if (!roi->label.colour) roi->label.colour = colour_of(item);
     const std::string path = "(3006,0039)[" + std::to_string(index) + "]/(3006,0040)[";
+    std::vector<Claim> claims;
     for_each_item(sequence_of(item, DCM_ContourSequence), [&](DcmItem& contour, std::size_t i) {
-      read_contour(contour, *roi, i, path + std::to_string(i) + ']');
+      if (const auto claim = claim_of(contour, *roi, i)) claims.push_back(*claim);
     });
+    std::vector<Points> points(claims.size());
+    for_each_index(claims.size(), claims.size() < few ? 1 : threads_,
+                   [&](std::size_t i, unsigned) { points[i] = read_points(claims[i]); });
+    std::vector<SpaceContour> contours;
+    for (std::size_t i = 0; i < claims.size(); ++i)
+      if (auto contour = take(claims[i], std::move(points[i]), *roi, path))
+        contours.push_back(std::move(*contour));
+    if (has_pin_holes_ && problems_.is_empty()) close_holes(contours, *roi);
+    add(std::move(contours), *roi);
+  }
+
+  static void close_holes(std::vector<SpaceContour>& contours, Roi& roi) {
+    // Single pixels are no side of a channel.
+    const std::size_t single = std::erase_if(
+        contours, [](const SpaceContour& contour) { return contour.points.size() < 2; });
+    if (single > 0) roi.left_out[too_few] += single;
+    const PinHoles closed = close_pin_holes(contours);
+    roi.pin_holes = {roi.pin_holes.count + closed.count, closed.width};
+  }
+
+  void add(std::vector<SpaceContour>&& contours, Roi& roi) {
+    for (SpaceContour& contour : contours) {
+      if (contour.points.size() < 3) {
+        ++roi.left_out[too_few];
+        continue;
+      }
+      ++roi.contours;
+      contours_.push_back(std::move(contour));
+    }
   }
 
   static std::optional<Colour> colour_of(DcmItem& item) {
@@ -113,55 +152,70 @@ class StructureSet {
     return Colour{byte(0), byte(1), byte(2)};
   }
 
-  void read_contour(DcmItem& item, Roi& roi, std::size_t index, const std::string& path) {
+  /// A closed contour as its item has it, its numbers not yet read.
+  struct Claim {
+    std::size_t index = 0;
+    bool is_exclusive_or = false;
+    std::optional<double> count;  ///< of points
+    std::string_view numbers;
+  };
+  struct Points {
+    std::vector<Vec3> points;
+    std::string problem;
+  };
+
+  /// None for what is not closed.
+  static std::optional<Claim> claim_of(DcmItem& item, Roi& roi, std::size_t index) {
     const std::string_view type = trimmed_value_of(item, DCM_ContourGeometricType);
     const bool is_exclusive_or = type == "CLOSEDPLANAR_XOR";
-    if (!is_exclusive_or && type != "CLOSED_PLANAR") {
-      ++roi.left_out[type.empty() ? "contour of no type" : in_words(type)];
-      return;
-    }
-    SpaceContour contour{
-        {}, roi.label.name, "ROI " + roi.number + " contour " + std::to_string(index)};
-    const auto count = to_number(trimmed_value_of(item, DCM_NumberOfContourPoints));
-    if (!read_points(item, count, contour.points, path)) return;
-    if (count && *count != static_cast<double>(contour.points.size())) ++roi.miscounted;
-    while (contour.points.size() > 1 && contour.points.front() == contour.points.back())
-      contour.points.pop_back();
-    if (contour.points.size() < 3) {
-      ++roi.left_out["closed contour of less than 3 points"];
-      return;
-    }
-    is_exclusive_or_ = is_exclusive_or_ && is_exclusive_or;
-    ++roi.contours;
-    contours_.push_back(std::move(contour));
+    if (is_exclusive_or || type == "CLOSED_PLANAR")
+      return Claim{index, is_exclusive_or,
+                   to_number(trimmed_value_of(item, DCM_NumberOfContourPoints)),
+                   trimmed_value_of(item, DCM_ContourData)};
+    ++roi.left_out[type.empty() ? "contour of no type" : in_words(type)];
+    return {};
   }
 
   static std::string in_words(std::string_view type) { return one_line(type.substr(0, 40)); }
 
-  /// `wanted`: how many there should be.
-  bool read_points(DcmItem& item, std::optional<double> wanted, std::vector<Vec3>& points,
-                   const std::string& path) {
-    std::string_view text = trimmed_value_of(item, DCM_ContourData);
-    const auto fail = [&](const std::string& message) {
-      problems_.add(object_.name() + ": " + path + "/(3006,0050): " + message);
-      return false;
-    };
+  /// By several threads at once.
+  static Points read_points(const Claim& claim) {
     constexpr std::size_t least = 6;  // bytes that a point takes
-    const double most = static_cast<double>(text.size() / least + 1);
-    points.reserve(static_cast<std::size_t>(std::clamp(wanted.value_or(0), 0.0, most)));
+    const double most = static_cast<double>(claim.numbers.size() / least + 1);
+    Points result;
+    result.points.reserve(static_cast<std::size_t>(std::clamp(claim.count.value_or(0), 0.0, most)));
     std::size_t count = 0;
-    for (; !text.empty(); ++count) {
+    for (std::string_view text = claim.numbers; !text.empty(); ++count) {
       std::string_view before = text;
       const auto number = next_number(text);
-      if (!number || !admitted::slice.admits(*number))
-        return fail("value " + std::to_string(count) + ", " + in_quotes(next_value(before)) +
-                    ", is no number of a usable size; export the structure again");
-      if (count % 3 == 0) points.emplace_back();
-      points.back()[count % 3] = *number;
+      if (!number || !admitted::slice.admits(*number)) {
+        result.problem = "value " + std::to_string(count) + ", " + in_quotes(next_value(before)) +
+                         ", is no number of a usable size; export the structure again";
+        return result;
+      }
+      if (count % 3 == 0) result.points.emplace_back();
+      result.points.back()[count % 3] = *number;
     }
-    if (count % 3 == 0) return true;
-    return fail("has " + std::to_string(count) +
-                " numbers, which are no triples x\\y\\z; export the structure again");
+    if (count % 3 != 0)
+      result.problem = "has " + std::to_string(count) +
+                       " numbers, which are no triples x\\y\\z; export the structure again";
+    return result;
+  }
+
+  /// None where a number is none.
+  std::optional<SpaceContour> take(const Claim& claim, Points&& read, Roi& roi,
+                                   const std::string& path) {
+    if (!read.problem.empty()) {
+      problems_.add(object_.name() + ": " + path + std::to_string(claim.index) +
+                    "]/(3006,0050): " + read.problem);
+      return {};
+    }
+    std::vector<Vec3>& points = read.points;
+    if (claim.count && *claim.count != static_cast<double>(points.size())) ++roi.miscounted;
+    while (points.size() > 1 && points.front() == points.back()) points.pop_back();
+    if (points.size() > 2) is_exclusive_or_ = is_exclusive_or_ && claim.is_exclusive_or;
+    return SpaceContour{std::move(points), roi.label.name,
+                        "ROI " + roi.number + " contour " + std::to_string(claim.index)};
   }
 
   /// `label 'Isocenter': left out 1 POINT; it has no closed contour`.
@@ -174,6 +228,10 @@ class StructureSet {
       add(std::to_string(roi.miscounted) +
           " contours have another number of points than the file says");
     if (!roi.is_listed) add("the file's list of ROIs does not have it");
+    if (roi.pin_holes.count > 0)
+      add("closed " + std::to_string(roi.pin_holes.count) + " channels to holes, " +
+          short_number(roi.pin_holes.width) +
+          " wide, as rt-utils draws them (--fill evenodd keeps them)");
     if (roi.contours == 0) add("it has no closed contour");
     if (!note.empty()) notes.push_back("label '" + roi.label.name + "': " + note);
   }
@@ -191,7 +249,12 @@ class StructureSet {
     return roi;
   }
 
+  static constexpr std::size_t few = 16;  // contours that are no work for threads
+  static constexpr const char* too_few = "closed contour of less than 3 points";
+
   DicomObject& object_;
+  bool has_pin_holes_;
+  unsigned threads_;
   std::vector<Roi> rois_;
   std::map<std::string, std::size_t, std::less<>> by_number_;
   std::vector<SpaceContour> contours_;
@@ -201,6 +264,8 @@ class StructureSet {
 
 }  // namespace
 
-Stack read_structure_set(DicomObject& object) { return StructureSet(object).read(); }
+Stack read_structure_set(DicomObject& object, const ReadOptions& options) {
+  return StructureSet(object, options).read();
+}
 
 }  // namespace loft::io

@@ -2,13 +2,13 @@
 #include "io/stacks/space_contours.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
 #include <optional>
 #include <utility>
+
+#include "io/bytes/text.h"
 
 namespace loft::io {
 
@@ -47,15 +47,6 @@ Vec3 area_vector(const SpaceContour& contour) {
     for (std::size_t k = 0; k < 3; ++k) sum[k] += part[k];
   }
   return sum;
-}
-
-/// A length or an angle as messages show it.
-std::string short_number(double value) {
-  constexpr int digits = 3;
-  std::array<char, 32> text{};
-  const auto end = std::to_chars(text.data(), text.data() + text.size(), value,
-                                 std::chars_format::general, digits);
-  return {text.data(), end.ptr};
 }
 
 /// Three axes at right angles: two in the planes, the third upright on them.
@@ -168,17 +159,23 @@ class Planes {
   }
 
   void tilt() {
-    const std::optional<Axes> axes = fitted();
+    std::vector<std::size_t> all(contours_.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    std::optional<Axes> axes = fitted(all);
     if (!axes) {
       problems_.add(std::string(name_) +
                     ": its contours have no area that would tell the direction of their planes");
       return;
     }
-    const Heights heights =
-        heights_at([&](const SpaceContour& contour) { return mean_height(contour, axes->normal); });
-    if (!are_parallel(*axes, heights.tolerance())) return;
+    // One that is turned turns the mean of all: what is wrong is told by what most agree on.
+    if (!off_planes(*axes).empty())
+      if (const auto most = fitted(most_alike(*axes))) axes = most;
+    if (const auto off = off_planes(*axes); !off.empty()) {
+      add_not_parallel(off, *axes);
+      return;
+    }
     keep_places_ = true;
-    slice(heights, [&](const Vec3& point) {
+    slice(heights_along(*axes), [&](const Vec3& point) {
       return cdt::Point{dot(axes->u, point), dot(axes->v, point)};
     });
     WorldFrame frame;
@@ -196,6 +193,11 @@ class Planes {
     return {std::move(heights), largest_extent_};
   }
 
+  [[nodiscard]] Heights heights_along(const Axes& axes) const {
+    return heights_at(
+        [&](const SpaceContour& contour) { return mean_height(contour, axes.normal); });
+  }
+
   static double mean_height(const SpaceContour& contour, const Vec3& normal) {
     double sum = 0;
     for (const Vec3& point : contour.points) sum += dot(point, normal);
@@ -203,9 +205,10 @@ class Planes {
   }
 
   /// The normal that areas agree on, large ones more; it points the way of its largest part.
-  [[nodiscard]] std::optional<Axes> fitted() const {
+  [[nodiscard]] std::optional<Axes> fitted(const std::vector<std::size_t>& contours) const {
     std::vector<Vec3> areas;
-    for (const SpaceContour& contour : contours_) areas.push_back(area_vector(contour));
+    for (const std::size_t i : contours) areas.push_back(area_vector(contours_[i]));
+    if (areas.empty()) return {};
     const Vec3 largest = *std::ranges::max_element(areas, {}, length);
     Vec3 sum{};
     for (const Vec3& area : areas)
@@ -222,33 +225,58 @@ class Planes {
     return Axes{u, cross(normal, u), normal};
   }
 
-  [[nodiscard]] bool are_parallel(const Axes& axes, double tolerance) {
+  /// Contours that have points off the plane that they would have.
+  [[nodiscard]] std::vector<std::size_t> off_planes(const Axes& axes) const {
     constexpr double flatness = 1e-3;  // of a contour's extent: decimals that were cut off
+    const double tolerance = heights_along(axes).tolerance();
+    std::vector<std::size_t> result;
+    for (std::size_t i = 0; i < contours_.size(); ++i) {
+      const double height = mean_height(contours_[i], axes.normal);
+      double off = 0;
+      for (const Vec3& point : contours_[i].points)
+        off = std::max(off, std::abs(dot(point, axes.normal) - height));
+      if (off > std::max(tolerance, flatness * extent(contours_[i]))) result.push_back(i);
+    }
+    return result;
+  }
+
+  /// The largest set of contours that are in parallel planes, of those that some of them tell.
+  [[nodiscard]] std::vector<std::size_t> most_alike(const Axes& mean) const {
+    constexpr std::size_t tries = 64;
+    const auto others = [&](const std::vector<std::size_t>& off) {
+      std::vector<std::size_t> result;
+      for (std::size_t i = 0; i < contours_.size(); ++i)
+        if (!std::ranges::binary_search(off, i)) result.push_back(i);
+      return result;
+    };
+    std::vector<std::size_t> best = others(off_planes(mean));
+    const std::size_t step = (contours_.size() + tries - 1) / tries;
+    for (std::size_t i = 0; i < contours_.size(); i += step) {
+      const std::optional<Axes> axes = fitted({i});
+      if (!axes) continue;
+      std::vector<std::size_t> alike = others(off_planes(*axes));
+      if (alike.size() > best.size()) best = std::move(alike);
+    }
+    return best;
+  }
+
+  void add_not_parallel(const std::vector<std::size_t>& off, const Axes& axes) {
     constexpr double right_angle = 90;
     const SpaceContour* worst = nullptr;
     double worst_angle = -1;
-    std::size_t count = 0;
-    for (const SpaceContour& contour : contours_) {
-      const double height = mean_height(contour, axes.normal);
-      double off = 0;
-      for (const Vec3& point : contour.points)
-        off = std::max(off, std::abs(dot(point, axes.normal) - height));
-      if (off <= std::max(tolerance, flatness * extent(contour))) continue;
-      ++count;
-      const Vec3 area = area_vector(contour);
+    for (const std::size_t i : off) {
+      const Vec3 area = area_vector(contours_[i]);
       const double sine = length(cross(area, axes.normal));
       const double angle =
           std::atan2(sine, std::abs(dot(area, axes.normal))) * right_angle / std::acos(0.0);
       if (angle <= worst_angle) continue;
       worst_angle = angle;
-      worst = &contour;
+      worst = &contours_[i];
     }
-    if (worst == nullptr) return true;
-    problems_.add(std::string(name_) + ": planes are not parallel: " + std::to_string(count) +
+    problems_.add(std::string(name_) + ": planes are not parallel: " + std::to_string(off.size()) +
                   " of " + std::to_string(contours_.size()) + " contours; " + worst->source +
                   " most, by " + short_number(worst_angle) +
                   " degrees; export structures of parallel planes only, one file each");
-    return false;
   }
 
   template <class Project>

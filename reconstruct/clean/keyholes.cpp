@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -16,7 +17,8 @@ namespace {
 using cdt::Point;
 using Ring = std::vector<std::uint32_t>;
 
-/// The sides of a channel are never further apart than that, compared to where they are nearest.
+/// The sides of a channel are never further apart than that, compared to where they are nearest,
+/// and the points that it ends with not further than that, compared to its width.
 constexpr double most_widening = 1.5;
 
 /// Runs at least that long are not followed again from other points of theirs.
@@ -112,9 +114,8 @@ class Finder {
   std::optional<Run> run() {
     for (const auto& [apart, i, j] : close_points()) {
       if (is_spent_[i] && is_spent_[j]) continue;
-      const double width = std::min(width_, most_widening * apart);
-      const Run run = follow(i, j, width);
-      if (is_channel(run, width)) return run;
+      const Run run = follow(i, j, std::min(width_, most_widening * apart));
+      if (is_channel(run, apart)) return run;
       if (run.end - run.begin < long_run) continue;
       for (std::size_t k = run.begin; k <= run.end; ++k) is_spent_[k % ring_.size()] = true;
       for (std::size_t k = run.back; k <= run.home; ++k) is_spent_[k % ring_.size()] = true;
@@ -130,9 +131,10 @@ class Finder {
     friend auto operator<=>(const Close&, const Close&) = default;
   };
 
-  /// Pairs of points within the width that are further from each other along the ring, the
-  /// nearest first.
+  /// Pairs of points that are further from each other along the ring, and within the width, or
+  /// within that of a side of the other where outlines are slanted; the nearest first.
   [[nodiscard]] std::vector<Close> close_points() const {
+    const double reach = most_widening * width_;
     std::vector<std::size_t> order(ring_.size());
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::sort(order, {}, [this](std::size_t i) { return std::pair(ring_.at(i), i); });
@@ -141,16 +143,24 @@ class Finder {
       for (std::size_t b = a + 1; b < order.size(); ++b) {
         const Point p = ring_.at(order[a]);
         const Point q = ring_.at(order[b]);
-        if (q.x - p.x > width_) break;
-        if (std::abs(q.y - p.y) > width_ || distance(p, q) > width_) continue;
+        if (q.x - p.x > reach) break;
+        if (std::abs(q.y - p.y) > reach || distance(p, q) > reach) continue;
         const auto [i, j] = std::minmax(order[a], order[b]);
         const double between = ring_.length(i, j);
-        if (std::min(between, ring_.length() - between) > 2 * distance(p, q))
+        if (std::min(between, ring_.length() - between) <= 2 * distance(p, q)) continue;
+        if (to_side(i, j) <= width_ || to_side(j, i) <= width_)
           found.push_back({distance(p, q), i, j});
       }
     }
     std::ranges::sort(found);
     return found;
+  }
+
+  /// From a point to the nearer one of two sides that meet in another.
+  [[nodiscard]] double to_side(std::size_t from, std::size_t to) const {
+    const Point p = ring_.at(from);
+    return std::min(distance(p, ring_.at(to + ring_.size() - 1), ring_.at(to)),
+                    distance(p, ring_.at(to), ring_.at(to + 1)));
   }
 
   /// From two points both ways, as long as the ring runs along itself.
@@ -165,34 +175,55 @@ class Finder {
   /// Forward from i and back from j. The channel may end where there are points on both sides.
   [[nodiscard]] std::pair<std::size_t, std::size_t> inwards(std::size_t i, std::size_t j,
                                                             double width) const {
+    const auto may_end = [&](std::size_t p, std::size_t q) {
+      return distance(ring_.at(p), ring_.at(q)) <= most_widening * width;
+    };
     std::pair ends{i, j};
     std::size_t p = i;
     std::size_t q = j;
     while (p + 2 < q) {
+      const bool is_along_q = distance(ring_.at(p + 1), ring_.at(q), ring_.at(q - 1)) <= width;
+      const bool is_along_p = distance(ring_.at(q - 1), ring_.at(p), ring_.at(p + 1)) <= width;
       if (distance(ring_.at(p + 1), ring_.at(q - 1)) <= width) {
-        ends = {++p, --q};
-      } else if (distance(ring_.at(p + 1), ring_.at(q), ring_.at(q - 1)) <= width) {
         ++p;
-      } else if (distance(ring_.at(q - 1), ring_.at(p), ring_.at(p + 1)) <= width) {
+        --q;
+      } else if (is_along_q) {
+        ++p;
+      } else if (is_along_p) {
         --q;
       } else {
         break;
       }
+      if (may_end(p, q)) ends = {p, q};
+    }
+    // One side may go on to a corner of a slanted outline.
+    if (p + 2 < q) {
+      if (distance(ring_.at(q), ring_.at(p), ring_.at(p + 1)) <= width && may_end(p + 1, q))
+        return {p + 1, q};
+      if (distance(ring_.at(p), ring_.at(q), ring_.at(q - 1)) <= width && may_end(p, q - 1))
+        return {p, q - 1};
     }
     return ends;
   }
 
-  [[nodiscard]] bool is_channel(const Run& run, double width) const {
+  /// Whether a run is one whose sides are that far apart where they are nearest.
+  [[nodiscard]] bool is_channel(const Run& run, double apart) const {
     const std::size_t next_begin = run.begin + ring_.size();
-    if (next_begin < run.home || ring_.length(run.begin, run.end) <= width) return false;
-    if (!is_wide(run.end, run.back, width) || !is_wide(run.home, next_begin, width)) return false;
+    if (next_begin < run.home) return false;
+    if (ring_.length(run.begin, run.end) <= apart || ring_.length(run.back, run.home) <= apart)
+      return false;
+    if (!is_wide(run.end, run.back, apart) || !is_wide(run.home, next_begin, apart)) return false;
     // Outside of an outline is what joins it to a hole; inside of a hole, what joins two of them.
     return (parts(run) == Parts::apart) == is_hole_;
   }
 
-  /// Whether part of the ring is more than a thread of that width.
-  [[nodiscard]] bool is_wide(std::size_t i, std::size_t j, double width) const {
-    return ring_.area(i, j) > ring_.length(i, j) * width;
+  /// Whether a disc fits into part of the ring whose radius is larger than that. The largest one of
+  /// radius r fulfils r l >= a + pi r^2, by length and area (T. Bonnesen, 1921).
+  [[nodiscard]] bool is_wide(std::size_t i, std::size_t j, double radius) const {
+    const double area = ring_.area(i, j);
+    const double length = ring_.length(i, j) + distance(ring_.at(i), ring_.at(j));
+    const double root = std::sqrt(std::max(0.0, length * length - 4 * std::numbers::pi * area));
+    return 2 * area > radius * (length + root);
   }
 
   /// The point between two positions that is farthest from the first one.

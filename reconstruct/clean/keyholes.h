@@ -28,10 +28,11 @@ struct KeyholeCut {
 ///
 /// A channel is two runs of the polygon in opposite directions that keep within `width` of each
 /// other, and within one and a half times of what they are apart where they are nearest. It is
-/// longer than wide, and begins and ends with a point on each side; between, the points of one
-/// side may be anywhere along the other. What it joins must be an outline and a hole inside it, or
-/// two holes, and both wider than it: parts side by side with a thin bridge, and spikes, stay as
-/// they are.
+/// longer than wide, and begins and ends with a point on each side, which may be further apart
+/// again by half, where outlines are slanted; between, the points of one side may be anywhere along
+/// the other. What it joins must be an outline and a hole inside it, or two holes, and both twice
+/// as wide as it: parts side by side with a thin bridge, spikes, slits and bays that are hardly
+/// wider than their mouth stay as they are.
 /// Cost: O(n log n) for each channel, where few points are within `width` of others.
 [[nodiscard]] KeyholeCut cut_keyholes(std::span<const cdt::Point> points, double width);
 

@@ -87,10 +87,20 @@ TEST(Csl, TurnsTiltedPlanesAndKeepsTheirPoints) {
 
 TEST(Csl, RefusesPlanesThatAreNotParallelWithTheWorstAngle) {
   const std::string rest = " 0\n0 0 0\n1 0 0\n0 1 0\n3 1 0 1 2\n";
-  EXPECT_EQ(problem(read_csl,
-                    "CSLC 3 2 1 3 1 0 0 1" + rest + "2 3 1 0 3 4" + rest + "3 3 1 0 1 0" + rest),
-            "a.file: its planes are not parallel: plane 3 is turned by 90.00 degrees against plane "
-            "1; a stack has parallel slices: keep those of one direction");
+  EXPECT_EQ(
+      problem(read_csl,
+              "CSLC 3 2 1 3 1 0 0 1" + rest + "2 3 1 0 3 4" + rest + "3 3 1 0 1 0" + rest),
+      "a.file: its planes are not parallel: 2 of 3; plane 3 most, by 90 degrees against plane "
+      "1; a stack has parallel slices: keep those of one direction");
+}
+
+TEST(Csl, NamesThePlaneThatIsNotParallelToMostAlsoIfItIsTheFirst) {
+  const std::string rest = " 0\n0 0 0\n1 0 0\n0 1 0\n3 1 0 1 2\n";
+  const std::string turned = " 3 1 0 3 4" + rest;
+  const std::string straight = " 3 1 0 0 1" + rest;
+  EXPECT_EQ(problem(read_csl, "CSLC 3 2 1" + turned + '2' + straight + '3' + straight),
+            "a.file: its planes are not parallel: 1 of 3; plane 1 most, by 36.9 degrees against "
+            "plane 2; a stack has parallel slices: keep those of one direction");
 }
 
 TEST(Csl, KeepsEmptyPlanesWhicheverSignTheirOffsetsHave) {
@@ -199,7 +209,7 @@ TEST(ContourFile, CountsLinesThatEnd) {
 TEST(ContourFile, RefusesPlanesThatAreNotParallel) {
   const std::string rest = " 0\n3 3\n0 0 0\n1 0 0\n0 0 0\n0 1 1 0\n1 2 1 0\n2 0 1 0\n";
   EXPECT_NE(
-      problem(read_contour, "2\n0 0 1" + rest + "0 1 0" + rest).find("turned by 90.00 degrees"),
+      problem(read_contour, "2\n0 0 1" + rest + "0 1 0" + rest).find("plane 2 most, by 90 degrees"),
       std::string::npos);
 }
 

@@ -3,12 +3,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "io/stacks/dicom.h"
+#include "io/volumes/outlines.h"
 #include "mesh/check.h"
 #include "mesh/measure.h"
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/io/stacks/made_dicom.h"
+#include "tests/io/volumes/masks.h"
+#include "tests/io/volumes/raster.h"
 
 namespace loft::io {
 namespace {
@@ -245,6 +250,103 @@ TEST(StructureSet, ARepeatedFirstPointIsDropped) {
   EXPECT_EQ(read(file_of({{"CLOSED_PLANAR", points}})).slices[0].contours[0].points.size(), 24U);
 }
 
+/// What the region of a slice encloses after cleaning, in pixels.
+testing::Raster region_of(const Stack& stack, const Slice& slice, std::size_t size) {
+  std::vector<ContourSource> sources;
+  for (std::uint32_t i = 0; i < slice.contours.size(); ++i)
+    sources.push_back({slice.contours[i].points, 0, i});
+  std::vector<Defect> repairs;
+  const Region region = clean(sources, slice.z, {stack.fill.value()}, repairs);
+  EXPECT_TRUE(repairs.empty());
+  testing::Raster raster(size, size);
+  for (std::size_t i = 0; i < region.loop_count(); ++i) {
+    std::vector<cdt::Point> points;
+    for (const std::uint32_t v : region.loop(i)) points.push_back(region.points[v]);
+    raster.add(points, [](const cdt::Point& p) {
+      return cdt::Point{(p.x + 180.5) / 1.3671875, (p.y + 99.25) / 1.3671875};
+    });
+  }
+  return raster;
+}
+
+TEST(StructureSet, NestedOutlinesGiveTheirMaskBack) {
+  // Parts, holes, parts in holes, all in the same direction, in decimals of 16 characters.
+  constexpr std::size_t size = 40;
+  const auto seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  std::vector<double> pixels = testing::random_pixels(size * size * heights.size(), 3, random);
+  for (double& pixel : pixels) pixel = pixel > 1 ? 1 : 0;
+  const Stack outlines = trace(testing::volume_of(size, size, pixels));
+  std::vector<MadeContour> contours;
+  for (const Slice& slice : outlines.slices)
+    for (const Contour& contour : slice.contours) {
+      MadeContour made{"CLOSED_PLANAR", {}};
+      for (const cdt::Point& p : contour.points)
+        made.points.push_back({1.3671875 * p.x - 180.5, 1.3671875 * p.y - 99.25, 5 * slice.z});
+      if (testing::area(contour.points) < 0) std::ranges::reverse(made.points);
+      contours.push_back(std::move(made));
+    }
+  const Stack stack = read(file_of(contours));
+  ASSERT_EQ(stack.slices.size(), heights.size());
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const testing::Raster raster = region_of(stack, stack.slices[k], size);
+    for (std::size_t i = 0; i < size * size; ++i)
+      ASSERT_EQ(raster[i], pixels[k * size * size + i] != 0) << "slice " << k << " pixel " << i;
+  }
+}
+
+/// A square of pixels with a hole and a channel to it as rt-utils draws them, each pixel 2 wide.
+std::vector<MadeContour> pin_holes() {
+  const auto at = [](const std::vector<std::array<int, 2>>& pixels, double z) {
+    std::vector<Vec3> points;
+    for (const auto& [x, y] : pixels) points.push_back({10 + 2.0 * x, 20 + 2.0 * y, z});
+    return points;
+  };
+  std::vector<MadeContour> contours;
+  for (const double z : heights) {
+    contours.push_back({"CLOSED_PLANAR", at({{0, 0},
+                                             {8, 0},
+                                             {8, 6},
+                                             {7, 6},
+                                             {7, 11},
+                                             {14, 11},
+                                             {14, 6},
+                                             {12, 6},
+                                             {12, 0},
+                                             {20, 0},
+                                             {20, 20},
+                                             {0, 20}},
+                                            z)});
+    contours.push_back({"CLOSED_PLANAR", at({{3, 3}}, z)});
+    contours.push_back({"CLOSED_PLANAR", at({{3, 3}, {4, 3}}, z)});
+  }
+  return contours;
+}
+
+TEST(StructureSet, ChannelsToHolesAsRtUtilsDrawsThemAreClosed) {
+  const auto file = [](const std::string& model) {
+    DcmDataset set;
+    testing::make_structure_set(set, {{.number = "3", .name = "organ", .contours = pin_holes()}});
+    testing::put(set, DCM_ManufacturerModelName, model);
+    return testing::bytes_of(set);
+  };
+  const Stack closed = read(file("rt-utils"));
+  EXPECT_THAT(closed.notes,
+              ElementsAre("label 'organ': left out 10 closed contour of less than 3 points; closed "
+                          "5 channels to holes, 8 wide, as rt-utils draws them (--fill evenodd "
+                          "keeps them)"));
+  const Measures measures = measures_of(closed);
+  EXPECT_EQ(measures.genus, 1);
+  EXPECT_NEAR(measures.volume, 4 * (400 - 35) * 12, 1e-9);
+  // By others they are left as they are, and if that is asked for.
+  const Stack drawn = read(file("other"));
+  EXPECT_EQ(drawn.slices[0].contours.size(), 1U);
+  EXPECT_EQ(measures_of(drawn).genus, 0);
+  const std::string bytes = file("rt-utils");
+  EXPECT_EQ(read_dicom({bytes, "made.dcm"}, {.fill = Fill::even_odd}).slices, drawn.slices);
+}
+
 TEST(StructureSet, PlanesAreSortedAndThoseThatDifferByRoundingAreOne) {
   std::vector<MadeContour> contours;
   for (const double z : {9.0000001, 0.0, 2.5, 12.0, 6.0, 5.9999999, 6.0})
@@ -306,11 +408,29 @@ TEST(StructureSet, TiltedPlanesAreTheSameSolidAtThePointsOfTheFile) {
   EXPECT_NEAR(measures.volume, volume, 1e-9 * volume);
 }
 
-TEST(StructureSet, PlanesThatAreNotParallelAreRefusedWithTheWorst) {
+TEST(StructureSet, OfPlanesThatAreNotParallelThoseAreNamedThatAreNotToMost) {
+  for (const std::size_t bad : {std::size_t{0}, std::size_t{3}}) {
+    std::vector<MadeContour> contours = moved_solid(as_it_is);
+    for (Vec3& point : contours[bad].points) point[2] += 0.1 * point[0];
+    EXPECT_EQ(problem(file_of(contours)),
+              "made.dcm: planes are not parallel: 1 of 5 contours; ROI 3 contour " +
+                  std::to_string(bad) +
+                  " most, by 5.71 degrees; export structures of parallel planes only, one file "
+                  "each");
+  }
+  // A large one has more to say than all others, but is one.
   std::vector<MadeContour> contours = moved_solid(as_it_is);
-  for (Vec3& point : contours[3].points) point[2] += 0.1 * point[0];
-  EXPECT_THAT(problem(file_of(contours)), HasSubstr("made.dcm: planes are not parallel: "));
-  EXPECT_THAT(problem(file_of(contours)), HasSubstr("ROI 3 contour 3 most, by 4."));
+  for (Vec3& point : contours[2].points)
+    point = {100 * point[0], 100 * point[1], point[2] + 10 * point[0]};
+  EXPECT_THAT(problem(file_of(contours)),
+              HasSubstr("1 of 5 contours; ROI 3 contour 2 most, by 5.7"));
+}
+
+TEST(StructureSet, PlanesThatAreAllDifferentAreRefused) {
+  std::vector<MadeContour> contours = moved_solid(as_it_is);
+  for (std::size_t i = 0; i < contours.size(); ++i)
+    for (Vec3& point : contours[i].points) point[2] += 0.1 * static_cast<double>(i) * point[0];
+  EXPECT_THAT(problem(file_of(contours)), HasSubstr("planes are not parallel: 4 of 5 contours"));
 }
 
 TEST(StructureSet, ContoursTooLongForTheirKindAreReadAsBytes) {

@@ -74,7 +74,7 @@ TEST(Keyholes, AreCutWhereverThePolygonStarts) {
 
 TEST(Keyholes, AreLeftWhereTheChannelIsWiderThanAskedFor) {
   const Points points = keyhole(square(3), 0, square(1), 0, 0.01);
-  EXPECT_EQ(areas(points, 0.009).size(), 1U);
+  EXPECT_EQ(areas(points, 0.007).size(), 1U);  // across, it is a little more than that
   const KeyholeCut cut = cut_keyholes(points, 0.011);
   EXPECT_EQ(cut.rings.size(), 2U);
   ASSERT_EQ(cut.channels.size(), 1U);
@@ -104,6 +104,56 @@ TEST(Keyholes, MayBeSeveral) {
     EXPECT_NEAR(found[0], 1, 1e-5);
     EXPECT_NEAR(found[1], 1, 1e-5);
     EXPECT_NEAR(found[2], 36, 1e-5);
+  }
+}
+
+/// A square with a channel upwards through its lower side, into a hole of that half width.
+Points channel(double width, double half) {
+  return {{-3, -3},
+          {0, -3},
+          {0, -1},
+          {-half, -1},
+          {-half, 2 * half - 1},
+          {half, 2 * half - 1},
+          {half, -1},
+          {width, -1},
+          {width, -3},
+          {3, -3},
+          {3, 3},
+          {-3, 3}};
+}
+
+TEST(Keyholes, MayLeadToSmallHoles) {
+  for (const double half : {0.3, 0.5, 1.0}) {
+    const auto found = areas(channel(0.1, half), 0.1);
+    ASSERT_EQ(found.size(), 2U) << half;
+    EXPECT_NEAR(found[0], 4 * half * half, 1e-12);
+    EXPECT_NEAR(found[1], 36, 1e-12);
+  }
+}
+
+TEST(Keyholes, DoNotIncludeSlitsAndBaysThatAreHardlyWiderThanTheirMouth) {
+  EXPECT_EQ(areas(channel(0.1, 0.1), 0.1).size(), 1U);
+  const Points slit{{-3, -3}, {0, -3}, {0, 2}, {0.1, 2}, {0.1, -3}, {3, -3}, {3, 3}, {-3, 3}};
+  EXPECT_EQ(areas(slit, 0.1).size(), 1U);
+  EXPECT_EQ(areas(slit, 1).size(), 1U);
+  const Points bay{{-3, -3}, {0, -3}, {0, -2}, {0.9, -2}, {0.9, -3}, {3, -3}, {3, 3}, {-3, 3}};
+  EXPECT_EQ(areas(bay, 1).size(), 1U);
+}
+
+TEST(Keyholes, MayEndInSlantedOutlines) {
+  Points points = channel(0.1, 1);
+  points[1].y += 0.05;  // where the channel begins
+  points[8].y -= 0.05;
+  points[2].y += 0.04;  // where the hole begins
+  points[3].y += 0.08;
+  points[6].y -= 0.04;
+  points[7].y -= 0.04;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const KeyholeCut cut = cut_keyholes(points, 0.1);
+    ASSERT_EQ(cut.rings.size(), 2U) << "start " << i;
+    EXPECT_EQ(cut.rings[0].size() + cut.rings[1].size(), points.size()) << "start " << i;
+    std::rotate(points.begin(), points.begin() + 1, points.end());
   }
 }
 
