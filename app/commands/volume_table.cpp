@@ -8,6 +8,7 @@
 #include "app/commands/label_volumes.h"
 #include "app/report.h"
 #include "io/bytes/atomic_file.h"
+#include "io/bytes/csv_field.h"
 #include "reconstruct/number_text.h"
 
 namespace loft::app {
@@ -20,16 +21,6 @@ using Row = std::array<std::string, 5>;
 std::size_t width(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count_if(
       text, [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U; }));
-}
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
 }
 
 }  // namespace
@@ -59,12 +50,12 @@ void write_volumes_csv(const std::filesystem::path& path, std::span<const PartRe
                        const std::string& unit) {
   std::string text = "label,slices,contours,volume_cm3,volume,unit,area\r\n";
   for (const PartReport& part : parts) {
-    text += quoted(part.label) + ',' + std::to_string(part.input.slices) + ',' +
+    text += io::csv_field(part.label) + ',' + std::to_string(part.input.slices) + ',' +
             std::to_string(part.input.contours) + ',';
     append_number(text, cubic_centimetres(part.measures.volume, unit));
     text += ',';
     append_number(text, part.measures.volume);
-    text += ',' + quoted(unit) + ',';
+    text += ',' + io::csv_field(unit) + ',';
     append_number(text, part.measures.area);
     text += "\r\n";
   }

@@ -14,6 +14,7 @@
 #include "io/bytes/text.h"
 #include "io/stacks/cli_header.h"
 #include "io/stacks/stack_builder.h"
+#include "io/stacks/winding.h"
 #include "mesh/admitted.h"
 #include "reconstruct/number_text.h"
 #include "reconstruct/usable.h"
@@ -23,16 +24,6 @@ namespace loft::io {
 namespace {
 
 enum Direction : std::int64_t { inner = 0, outer = 1, open = 2 };
-
-double doubled_area(const std::vector<cdt::Point>& points) {
-  double sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const cdt::Point& a = points[i];
-    const cdt::Point& b = points[(i + 1) % points.size()];
-    sum += (a.x - points[0].x) * (b.y - points[0].y) - (b.x - points[0].x) * (a.y - points[0].y);
-  }
-  return sum;
-}
 
 /// What the commands of a file, of either kind, make.
 class Layers {

@@ -14,6 +14,7 @@
 
 #include "io/bytes/text.h"
 #include "io/stacks/slice_outlines.h"
+#include "io/stacks/winding.h"
 #include "io/unit.h"
 #include "reconstruct/world.h"
 
@@ -59,14 +60,6 @@ struct Layer {
   double z = 0;
   std::vector<Outline> outlines;
 };
-
-double doubled_area(const std::vector<cdt::Point>& points) {
-  double sum = 0;
-  for (std::size_t i = 2; i < points.size(); ++i)
-    sum += (points[i - 1].x - points[0].x) * (points[i].y - points[0].y) -
-           (points[i].x - points[0].x) * (points[i - 1].y - points[0].y);
-  return sum;
-}
 
 class CliWriter {
  public:

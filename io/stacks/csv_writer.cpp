@@ -4,25 +4,11 @@
 #include <cstdint>
 #include <ostream>
 
+#include "io/bytes/csv_field.h"
 #include "reconstruct/number_text.h"
 #include "reconstruct/world.h"
 
 namespace loft::io {
-
-namespace {
-
-/// As a field of CSV (RFC 4180).
-std::string field(const std::string& text) {
-  if (text.find_first_of(",\"\n\r") == std::string::npos) return text;
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"') result += '"';
-    result += c;
-  }
-  return result + '"';
-}
-
-}  // namespace
 
 std::vector<std::string> write_csv(std::ostream& out, const Stack& stack) {
   out << "x,y,z,contour,label\r\n";
@@ -33,7 +19,8 @@ std::vector<std::string> write_csv(std::ostream& out, const Stack& stack) {
     empty += slice.contours.empty() ? 1U : 0U;
     for (std::uint32_t c = 0; c < slice.contours.size(); ++c, ++number) {
       const Contour& contour = slice.contours[c];
-      const std::string end = ',' + std::to_string(number) + ',' + field(contour.label) + "\r\n";
+      const std::string end =
+          ',' + std::to_string(number) + ',' + csv_field(contour.label) + "\r\n";
       std::string lines;
       for (std::uint32_t p = 0; p < contour.points.size(); ++p) {
         const Vec3 place = world_place(stack, {contour.points[p].x, contour.points[p].y, slice.z},

@@ -16,6 +16,7 @@
 #include "io/stacks/jser_section.h"
 #include "io/stacks/stack_builder.h"
 #include "io/stacks/take_away.h"
+#include "io/stacks/winding.h"
 #include "mesh/admitted.h"
 #include "reconstruct/usable.h"
 
@@ -31,16 +32,6 @@ std::optional<std::size_t> section_number(std::string_view name) {
   constexpr std::size_t most = 100'000'000;
   if (error != std::errc() || end != name.data() + name.size() || number > most) return {};
   return number;
-}
-
-double doubled_area(const std::vector<cdt::Point>& points) {
-  double sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const cdt::Point& a = points[i];
-    const cdt::Point& b = points[(i + 1) % points.size()];
-    sum += (a.x - points[0].x) * (b.y - points[0].y) - (b.x - points[0].x) * (a.y - points[0].y);
-  }
-  return sum;
 }
 
 /// The traces of one name in one section.

@@ -17,6 +17,7 @@
 #include "io/stacks/heights.h"
 #include "io/stacks/isolines.h"
 #include "io/stacks/stack_builder.h"
+#include "io/stacks/winding.h"
 #include "mesh/admitted.h"
 #include "reconstruct/usable.h"
 
@@ -36,16 +37,6 @@ std::optional<double> height_in(const GeoFeature& feature, std::string_view prop
   const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), number);
   if (error != std::errc() || end != text->data() + text->size()) return {};
   return number;
-}
-
-double doubled_area(const std::vector<cdt::Point>& points) {
-  double sum = 0;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const cdt::Point& a = points[i];
-    const cdt::Point& b = points[(i + 1) % points.size()];
-    sum += (a.x - points[0].x) * (b.y - points[0].y) - (b.x - points[0].x) * (a.y - points[0].y);
-  }
-  return sum;
 }
 
 /// A shape of the file with its height, or heights.
