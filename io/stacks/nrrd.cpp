@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "io/stacks/nrrd.h"
 
-#include <charconv>
-#include <cstring>
 #include <optional>
 #include <string>
-#include <vector>
 
-#include "io/bytes/file.h"
+#include "io/stacks/file_beside.h"
 #include "io/stacks/nrrd_header.h"
 #include "io/volumes/outlines.h"
 
@@ -17,17 +14,10 @@ namespace {
 
 /// The file with the pixels, which is beside the header.
 FileBytes read_data_file(const StackInput& input, const std::string& name) {
-  const std::filesystem::path file(name);
   if (name == "LIST" || name.find('%') != std::string::npos)
     throw InputError(input.name +
                      ": data file: pixels in several files cannot be read; save it as one");
-  if (file.has_parent_path() || file.is_absolute() || name == "..")
-    throw InputError(input.name + ": data file: " + name +
-                     " is not beside the header; put both into one folder");
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(input.folder / file, ignored))
-    throw InputError(input.name + ": data file: " + name + " is not there");
-  return FileBytes(input.folder / file);
+  return read_file_beside(input, "data file", name);
 }
 
 /// What is behind some lines and bytes.
@@ -43,23 +33,6 @@ std::string_view skipped(std::string_view bytes, const NrrdHeader& header) {
   return bytes.substr(header.byte_skip);
 }
 
-/// Numbers with blanks or commas between them, as doubles.
-std::string numbers_of(std::string_view text, std::uint64_t count, const std::string& name) {
-  if (count > text.size()) throw InputError(name + ": sizes: more pixels than the file has bytes");
-  std::string bytes(count * sizeof(double), '\0');
-  std::size_t at = 0;
-  for (std::uint64_t i = 0; i < count; ++i) {
-    at = std::min(text.find_first_not_of(" \t\r\n,", at), text.size());
-    double value = 0;
-    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
-    if (error != std::errc())
-      throw InputError(name + ": pixel " + std::to_string(i) + ": no number is there");
-    std::memcpy(bytes.data() + i * sizeof(double), &value, sizeof(double));
-    at = static_cast<std::size_t>(end - text.data());
-  }
-  return bytes;
-}
-
 /// Gives the volume its pixels: those of the file, or what is put into `made`.
 void set_pixels(NrrdHeader& header, std::string_view data, const std::string& data_name,
                 std::uint64_t offset, std::string& made) {
@@ -67,7 +40,7 @@ void set_pixels(NrrdHeader& header, std::string_view data, const std::string& da
   const auto size = byte_count(header.volume, header.pixels.type);
   if (!size) throw InputError(name + ": sizes: more pixels than any file holds");
   if (header.encoding == NrrdHeader::Encoding::text) {
-    made = numbers_of(data, *size / size_of(header.pixels.type), name);
+    made = pixels_in_text(data, *size / size_of(header.pixels.type), name);
     header.pixels.type = PixelType::f64;
     header.pixels.order = std::endian::native;
     data = made;

@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -12,6 +10,7 @@
 
 #include "io/bytes/text.h"
 #include "io/bytes/utf8.h"
+#include "io/bytes/words.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -21,23 +20,10 @@ namespace {
 /// Longer headers are none.
 constexpr std::size_t longest_header = std::size_t{16} << 20U;
 
-std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view blanks = " \t\r";
-  const std::size_t begin = text.find_first_not_of(blanks);
-  if (begin == std::string_view::npos) return {};
-  return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
-}
-
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::ranges::transform(result, result.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return result;
-}
-
+/// Vectors are words, too.
 std::vector<std::string_view> words(std::string_view text) {
   std::vector<std::string_view> all;
-  for (text = trimmed(text); !text.empty(); text = trimmed(text)) {
+  for (text = without_blanks(text); !text.empty(); text = without_blanks(text)) {
     std::size_t end = text.front() == '(' ? text.find(')') : text.find_first_of(" \t");
     if (end == std::string_view::npos) end = text.size();
     if (end < text.size() && text[end] == ')') ++end;
@@ -47,14 +33,6 @@ std::vector<std::string_view> words(std::string_view text) {
   return all;
 }
 
-std::optional<double> number(std::string_view text) {
-  text = trimmed(text);
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return {};
-  return value;
-}
-
 /// `(1,0,0)`: its numbers; none for `none` and what is no vector.
 std::vector<double> vector_of(std::string_view word) {
   std::vector<double> numbers;
@@ -62,7 +40,7 @@ std::vector<double> vector_of(std::string_view word) {
   word = word.substr(1, word.size() - 2);
   while (!word.empty()) {
     const std::size_t end = std::min(word.find(','), word.size());
-    const auto value = number(word.substr(0, end));
+    const auto value = number_in(word.substr(0, end));
     if (!value) return {};
     numbers.push_back(*value);
     word.remove_prefix(std::min(end + 1, word.size()));
@@ -134,23 +112,24 @@ class HeaderReader {
       }
       const std::string_view text = bytes_.substr(at, end - at);
       at = end + 1;
-      if (trimmed(text).empty()) break;
+      if (without_blanks(text).empty()) break;
       take_line(text, line);
     }
     header_.size = at;
   }
 
   void take_line(std::string_view text, std::size_t line) {
-    if (line == 1 || text.starts_with('#') || trimmed(text).empty()) return;
+    if (line == 1 || text.starts_with('#') || without_blanks(text).empty()) return;
     if (const std::size_t pair = text.find(":="); pair != std::string_view::npos) {
       header_.pairs[std::string(text.substr(0, pair))] =
-          std::string(trimmed(text.substr(pair + 2)));
+          std::string(without_blanks(text.substr(pair + 2)));
       return;
     }
     const std::size_t colon = text.find(": ");
     if (colon == std::string_view::npos)
       fail("line " + std::to_string(line), "neither 'field: value' nor 'key:=value'");
-    fields_[lower(trimmed(text.substr(0, colon)))] = std::string(trimmed(text.substr(colon + 2)));
+    fields_[in_lower_case(without_blanks(text.substr(0, colon)))] =
+        std::string(without_blanks(text.substr(colon + 2)));
   }
 
   [[nodiscard]] std::string_view field(const std::string& name) const {
@@ -163,7 +142,7 @@ class HeaderReader {
 
   /// Sizes, and which axis is that of layers, if there are four.
   void read_axes() {
-    const auto dimension = number(field("dimension"));
+    const auto dimension = number_in(field("dimension"));
     if (!dimension || (*dimension != 3 && *dimension != 4))
       fail("dimension",
            in_quotes(field("dimension")) + " cannot be read; a volume has 3, or 4 with its layers");
@@ -187,7 +166,7 @@ class HeaderReader {
   }
 
   [[nodiscard]] std::uint32_t count(std::string_view word) const {
-    const auto value = number(word);
+    const auto value = number_in(word);
     if (!value || !(*value >= 1 && *value <= std::numeric_limits<std::uint32_t>::max()) ||
         *value != std::floor(*value))
       fail("sizes", in_quotes(word) + " is no size");
@@ -197,7 +176,7 @@ class HeaderReader {
   [[nodiscard]] std::uint64_t skip(const std::string& name, const std::string& other) const {
     const std::string_view text = field(name, other);
     if (text.empty()) return 0;
-    const auto value = number(text);
+    const auto value = number_in(text);
     if (!value || !(*value >= 0 && *value <= 1e15) || *value != std::floor(*value))
       fail(name, in_quotes(text) + " is no count" +
                      (value && *value < 0 ? "; write where the pixels begin" : ""));
@@ -205,17 +184,17 @@ class HeaderReader {
   }
 
   void read_pixels() {
-    const auto type = std::ranges::find(type_names, lower(field("type")), &TypeName::name);
+    const auto type = std::ranges::find(type_names, in_lower_case(field("type")), &TypeName::name);
     if (type == type_names.end())
       fail("type", in_quotes(field("type")) + " cannot be read; save labels as unsigned short");
     header_.pixels.type = type->type;
-    const std::string endian = lower(field("endian"));
+    const std::string endian = in_lower_case(field("endian"));
     if (endian == "big") {
       header_.pixels.order = std::endian::big;
     } else if (!endian.empty() && endian != "little") {
       fail("endian", in_quotes(endian) + " is neither little nor big");
     }
-    const std::string encoding = lower(field("encoding"));
+    const std::string encoding = in_lower_case(field("encoding"));
     if (encoding == "gzip" || encoding == "gz") {
       header_.encoding = NrrdHeader::Encoding::gzip;
     } else if (encoding == "txt" || encoding == "text" || encoding == "ascii") {
@@ -231,7 +210,8 @@ class HeaderReader {
   /// The matrix: directions and origin, or spacings alone.
   void read_places() {
     Volume& volume = header_.volume;
-    const auto space = std::ranges::find(space_names, lower(field("space")), &SpaceName::name);
+    const auto space =
+        std::ranges::find(space_names, in_lower_case(field("space")), &SpaceName::name);
     if (space != space_names.end()) header_.space = std::string(space->axes);
     if (!header_.space.empty()) volume.unit = "mm";
     if (directions_.empty()) return read_spacings();
@@ -254,7 +234,7 @@ class HeaderReader {
     std::size_t known = 0;
     for (std::size_t i = 0, axis = 0; i < spacings.size() && axis < 3; ++i) {
       if (i == layer_axis_) continue;
-      const auto spacing = number(spacings[i]);
+      const auto spacing = number_in(spacings[i]);
       if (spacing && std::isfinite(*spacing)) {
         volume.to_world[axis][axis] = *spacing;
         ++known;
@@ -279,7 +259,7 @@ std::optional<Colour> colour_of(std::string_view text) {
   if (parts.size() != 3) return {};
   std::array<std::uint8_t, 3> channels{};
   for (std::size_t i = 0; i < 3; ++i) {
-    const auto share = number(parts[i]);
+    const auto share = number_in(parts[i]);
     if (!share || !(*share >= 0 && *share <= 1)) return {};
     channels[i] = static_cast<std::uint8_t>(std::lround(*share * 255));
   }
@@ -304,8 +284,9 @@ std::vector<VolumeLabel> segments_of(const NrrdHeader& header) {
     std::string name = json_text(one_line(value(prefix + "Name")));
     if (id.empty() && name.empty()) return segments;
     // Old SlicerRT wrote neither value nor layer: each segment is a layer of its own.
-    const double layer = number(value(prefix + "Layer")).value_or(header.volume.layers > 1 ? i : 0);
-    const double pixel = number(value(prefix + "LabelValue")).value_or(1);
+    const double layer =
+        number_in(value(prefix + "Layer")).value_or(header.volume.layers > 1 ? i : 0);
+    const double pixel = number_in(value(prefix + "LabelValue")).value_or(1);
     if (!(layer >= 0 && layer < header.volume.layers))
       throw InputError(header.volume.name + ": " + prefix + "Layer: there are only " +
                        std::to_string(header.volume.layers) + " layers");

@@ -9,6 +9,7 @@
 #include "io/stacks/dicom.h"
 #include "io/stacks/imod.h"
 #include "io/stacks/jser.h"
+#include "io/stacks/meta_image.h"
 #include "io/stacks/nifti.h"
 #include "io/stacks/nrrd.h"
 #include "io/stacks/nuages.h"
@@ -24,6 +25,7 @@ constexpr std::array formats{
     StackFormat{"NDJSON", ".ndjson .jsonl .json", read_ndjson},
     StackFormat{"NIfTI", ".nii .nii.gz .hdr", read_nifti, begins_like_nifti},
     StackFormat{"NRRD", ".nrrd .nhdr", read_nrrd, begins_like_nrrd},
+    StackFormat{"MetaImage", ".mha .mhd", read_meta_image, begins_like_meta_image},
     StackFormat{"DICOM", ".dcm .dicom", read_dicom, begins_like_dicom},
     StackFormat{"CLI", ".cli", read_cli, begins_like_cli},
     StackFormat{"IMOD", ".mod .imod", read_imod, begins_like_imod},

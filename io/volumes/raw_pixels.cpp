@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <memory>
 #include <string>
@@ -12,6 +14,7 @@
 
 #include "io/bytes/inflate.h"
 #include "io/bytes/little_endian.h"
+#include "reconstruct/defect.h"
 
 namespace loft::io {
 
@@ -98,6 +101,22 @@ std::optional<std::uint64_t> byte_count(const Volume& volume, PixelType type) {
     count *= factor;
   }
   return count;
+}
+
+std::string pixels_in_text(std::string_view text, std::uint64_t count, const std::string& name) {
+  if (count > text.size()) throw InputError(name + ": sizes: more pixels than the file has bytes");
+  std::string bytes(count * sizeof(double), '\0');
+  std::size_t at = 0;
+  for (std::uint64_t i = 0; i < count; ++i) {
+    at = std::min(text.find_first_not_of(" \t\r\n,", at), text.size());
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + text.size(), value);
+    if (error != std::errc())
+      throw InputError(name + ": pixel " + std::to_string(i) + ": no number is there");
+    std::memcpy(bytes.data() + i * sizeof(double), &value, sizeof(double));
+    at = static_cast<std::size_t>(end - text.data());
+  }
+  return bytes;
 }
 
 namespace {

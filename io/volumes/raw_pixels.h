@@ -32,6 +32,11 @@ struct RawPixels {
 /// The bytes that pixels of the volume's sizes take; none if 2^63 are not enough.
 [[nodiscard]] std::optional<std::uint64_t> byte_count(const Volume& volume, PixelType type);
 
+/// So many numbers of a text with blanks, ends of lines or commas between them, as doubles of the
+/// machine. Throws InputError, with `name`, where there are fewer.
+[[nodiscard]] std::string pixels_in_text(std::string_view text, std::uint64_t count,
+                                         const std::string& name);
+
 /// Makes them the volume's pixels; the bytes must outlive it.
 void set_pixels(Volume& volume, const RawPixels& pixels);
 

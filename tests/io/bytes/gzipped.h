@@ -29,4 +29,15 @@ inline std::string gzipped(const std::string& bytes, std::size_t members = 1) {
   return result;
 }
 
+/// By zlib, without gzip's header.
+inline std::string deflated(const std::string& bytes) {
+  std::string packed(compressBound(bytes.size()), '\0');
+  uLongf size = packed.size();
+  EXPECT_EQ(compress(reinterpret_cast<Bytef*>(packed.data()), &size,
+                     reinterpret_cast<const Bytef*>(bytes.data()), bytes.size()),
+            Z_OK);
+  packed.resize(size);
+  return packed;
+}
+
 }  // namespace loft::io::testing

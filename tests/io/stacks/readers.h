@@ -46,7 +46,7 @@ inline void expect_no_cut_hurts(Reader reader, std::string_view bytes) {
 template <class Number>
 void append(std::string& bytes, Number number, std::endian order) {
   char place[sizeof(Number)];
-  put(place, number);
+  io::put(place, number);
   if (order == std::endian::big) std::reverse(std::begin(place), std::end(place));
   bytes.append(place, sizeof(Number));
 }

@@ -7,12 +7,14 @@
 #include <cstdint>
 #include <map>
 #include <random>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/volumes/volume.h"
 #include "reconstruct/slice.h"
+#include "reconstruct/stack.h"
 
 namespace loft::io::testing {
 
@@ -68,6 +70,38 @@ inline double area(const Slice& slice, const std::string& label) {
   for (const Contour& contour : slice.contours)
     if (contour.label == label) sum += area(contour.points);
   return sum;
+}
+
+/// How many pixels of a stack's slices are not as these are, x first: at their centres, so far
+/// apart, the contours of their label are to enclose them, by the name that it has for a value, and
+/// those of no other value.
+template <class Name>
+std::size_t differing_pixels(const Stack& stack, std::size_t columns, std::size_t rows,
+                             const std::vector<int>& pixels, const Name& name, double x_step = 1,
+                             double y_step = 1) {
+  const std::set<int> values(pixels.begin(), pixels.end());
+  std::size_t count = pixels.size() == stack.slices.size() * columns * rows ? 0 : pixels.size();
+  for (std::size_t i = 0; i < pixels.size() && count < pixels.size(); ++i) {
+    const cdt::Point centre{x_step * (static_cast<double>(i % columns) + 1e-9),
+                            y_step * (static_cast<double>(i / columns % rows) + 2e-9)};
+    for (const int value : values)
+      if (value != 0)
+        count +=
+            encloses(stack.slices[i / columns / rows], name(value), centre) != (pixels[i] == value)
+                ? 1
+                : 0;
+  }
+  return count;
+}
+inline std::string number_as_name(int value) { return std::to_string(value); }
+
+/// Whole numbers from 1 to `labels`, and 0 about as often as all of them.
+inline std::vector<int> random_labels(std::size_t count, int labels, std::mt19937_64& random) {
+  std::vector<int> pixels(count);
+  for (int& pixel : pixels)
+    pixel = random() % 2 == 0 ? 0 : static_cast<int>(random() % static_cast<unsigned>(labels)) + 1;
+  pixels[random() % count] = 1;  // nothing at all would be refused
+  return pixels;
 }
 
 }  // namespace loft::io::testing

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: MIT
+#include "io/stacks/meta_image.h"
+#include "tests/fuzz/stacks.h"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
+  using namespace loft;
+  fuzz::read_stack(io::read_meta_image, fuzz::text_of(bytes, size));
+  return 0;
+}
