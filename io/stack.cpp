@@ -64,11 +64,12 @@ std::vector<path> images_in(const path& folder) {
   }
   if (images.empty())
     throw FileError(Access::read, folder, "it is a folder without images of a series");
-  std::ranges::sort(images, in_natural_order);
   return images;
 }
 
+/// Whatever order a shell has put them in.
 Stack read_series(std::vector<path> images, const ReadOptions& options) {
+  std::ranges::sort(images, in_natural_order);
   const StackFormat& format = format_of(images.front());
   for (const path& image : images)
     if (&format_of(image) != &format)
@@ -96,7 +97,9 @@ std::string stack_extensions() {
 }
 
 bool is_stack_file(const path& file) {
-  return file == "-" || find_stack_format(file, first_bytes(file)) != nullptr;
+  std::error_code ignored;
+  return file == "-" || std::filesystem::is_directory(file, ignored) ||
+         find_stack_format(file, first_bytes(file)) != nullptr;
 }
 
 Stack read_stack(const path& file, const ReadOptions& options) {

@@ -20,7 +20,8 @@ namespace loft::io {
 /// that is wrong; a file without any slice is bad, too.
 [[nodiscard]] Stack read_stack(const std::filesystem::path& path, const ReadOptions& options = {});
 
-/// The stack in several files: their slices one after the other, images of a series as one volume.
+/// The stack in several files: their slices one after the other; images of a series as one volume,
+/// in natural order of their names.
 /// What is wrong in any of them is listed. Throws InputError, too, where their units or frames
 /// differ.
 [[nodiscard]] Stack read_stack(std::span<const std::filesystem::path> paths,
@@ -39,7 +40,7 @@ void label_unlabelled(Slice& slice, const std::string& label);
 [[nodiscard]] std::string stack_extensions();
 
 /// Whether read_stack() has a reader for this file, going by its name, or by its first bytes where
-/// they can be read.
+/// they can be read; a folder may be one of images.
 [[nodiscard]] bool is_stack_file(const std::filesystem::path& path);
 
 }  // namespace loft::io

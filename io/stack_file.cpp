@@ -23,7 +23,6 @@ std::ifstream open(const std::filesystem::path& path) {
   if (path == "-")
     throw FileError(Access::read, "standard input",
                     "it cannot be read twice, as working out of core asks for; give a file");
-  if (std::filesystem::is_directory(path)) throw FileError(Access::read, path, "it is a folder");
   std::ifstream file(path, std::ios::binary);
   if (!file) throw FileError(Access::read, path, last_cause());
   if (!is_stack_file(path)) throw UnknownFormat(path, stack_extensions());
@@ -37,6 +36,8 @@ std::uint64_t size_of(const std::filesystem::path& path) {
 }
 
 bool is_read_by_line(const std::filesystem::path& path) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(path, ignored)) return false;  // of images
   return path == "-" || find_stack_format(path) == nullptr ||
          find_stack_format(path)->read == read_ndjson;
 }

@@ -29,9 +29,10 @@ reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction,world}        
 
 io-values     io/{unit,version}              reconstruct
 bytes         io/bytes/*                     io-values
-read-options  io/stacks/read_options        io-values
+read-options  io/stacks/{read_options,stack_format}  io-values
 volumes       io/volumes/*                   bytes read-options
-stacks        io/stacks/*                    volumes
+images        io/images/*                    volumes
+stacks        io/stacks/*                    images
 meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes
@@ -123,7 +124,7 @@ offenders=$(
   posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
   allow 'cdt mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
-  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h"
+  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|tiffio\.h|png\.h"
   allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
   forbid 'cdt mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'

@@ -40,6 +40,10 @@ void add_read_options(CLI::App& sub, io::ReadOptions& options) {
          "pixels' edges (edges)")
       ->type_name("RULE")
       ->check(CLI::IsMember({"iso", "edges"}));
+  sub.add_option("--level", options.level,
+                 "Value that pixels of grey have inside at least (otherwise each value is a label, "
+                 "or from 0.5 on where they are shares of 1)")
+      ->type_name("VALUE");
   sub.add_option("--z-property", options.z_property,
                  "Property of GeoJSON that heights are in (default: ELEV, elevation, z, ...)")
       ->type_name("NAME");

@@ -3,6 +3,8 @@
 #include <array>
 #include <cctype>
 
+#include "io/images/png.h"
+#include "io/images/tiff.h"
 #include "io/stacks/cli.h"
 #include "io/stacks/csl.h"
 #include "io/stacks/csv.h"
@@ -27,6 +29,8 @@ constexpr std::array formats{
     StackFormat{"NRRD", ".nrrd .nhdr", read_nrrd, begins_like_nrrd},
     StackFormat{"MetaImage", ".mha .mhd", read_meta_image, begins_like_meta_image},
     StackFormat{"DICOM", ".dcm .dicom", read_dicom, begins_like_dicom},
+    StackFormat{"TIFF", ".tif .tiff", read_tiff, begins_like_tiff, read_tiff_series},
+    StackFormat{"PNG", ".png", read_png, begins_like_png, read_png_series},
     StackFormat{"CLI", ".cli", read_cli, begins_like_cli},
     StackFormat{"IMOD", ".mod .imod", read_imod, begins_like_imod},
     StackFormat{"PyReconstruct", ".jser", read_jser},

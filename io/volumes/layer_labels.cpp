@@ -62,8 +62,14 @@ std::uint32_t LayerLabels::find(double value) {
   constexpr double largest = 4294967295.0;
   if (!(value > 0 && value <= largest) || value != std::floor(value) || known.size() >= most_labels)
     refuse(value);
-  const std::string id = std::to_string(static_cast<std::uint32_t>(value));
-  return meet(known.emplace(value, add({id, {}, id}, false)).first->second);
+  return meet(
+      known.emplace(value, add(named(static_cast<std::uint32_t>(value)), false)).first->second);
+}
+
+StackLabel LayerLabels::named(std::uint32_t value) const {
+  if (volume_.label_of) return volume_.label_of(value);
+  const std::string id = std::to_string(value);
+  return {id, {}, id};
 }
 
 void LayerLabels::refuse(double value) const {

@@ -45,6 +45,7 @@ class LayerLabels {
   std::uint32_t add(StackLabel label, bool is_told);
   [[nodiscard]] std::uint32_t find(double value);
   [[nodiscard]] std::uint32_t meet(std::uint32_t label);
+  [[nodiscard]] StackLabel named(std::uint32_t value) const;
   [[noreturn]] void refuse(double value) const;
 
   const Volume& volume_;

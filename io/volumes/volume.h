@@ -41,8 +41,10 @@ struct Volume {
   /// What must be reached to be inside, for pixels that have shares, probabilities or grey. None:
   /// each value but 0 is a label.
   std::optional<double> level = {};
-  std::vector<VolumeLabel> labels = {};  ///< what is known of them; others go by their value
-  std::vector<std::string> notes = {};   ///< become the stack's
+  std::vector<VolumeLabel> labels = {};  ///< what is known of them
+  /// What others are, by their value, for those that do not just go by its number; may be empty.
+  std::function<StackLabel(std::uint32_t value)> label_of = {};
+  std::vector<std::string> notes = {};  ///< become the stack's
 
   /// Fills in one layer's pixels of one slice, row by row, columns * rows of them. Values that are
   /// not numbers are outside of all labels. Slices are asked for in order, in each all layers.

@@ -5,8 +5,10 @@
 
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "tests/app/program.h"
+#include "tests/io/images/made_png.h"
 
 namespace loft::app {
 namespace {
@@ -161,6 +163,38 @@ TEST(SliceCommand, AndReconstructIsARoundTrip) {
   }
   EXPECT_EQ(run(folder, "slice solid.ply -o cut.ndjson").exit_code, 2);
   EXPECT_EQ(run(folder, "slice solid.ply -o cut.ndjson --heights 99").exit_code, 3);
+}
+
+/// Three slices in a folder, of which a shell has the second last; red beside blue.
+void write_images(const Folder& folder) {
+  std::filesystem::create_directory(folder / "images");
+  io::testing::MadePng made{.columns = 6, .rows = 4, .kind = 2, .samples = std::vector<int>(72)};
+  for (std::size_t pixel = 7; pixel < 17; ++pixel)
+    if (pixel % 6 > 0 && pixel % 6 < 5) made.samples[3 * pixel + (pixel % 6 < 3 ? 0 : 2)] = 255;
+  for (const char* const name : {"images/a1.png", "images/a2.png", "images/a10.png"})
+    static_cast<void>(folder.write(name, made.bytes()));
+}
+
+TEST(Stacks, AFolderOfImagesIsOne) {
+  const Folder folder;
+  write_images(folder);
+  const Outcome asked = run(folder, "info images");
+  EXPECT_EQ(asked.exit_code, 3);
+  if (asked.err.find("this build reads no PNG") != std::string::npos) GTEST_SKIP();
+  EXPECT_THAT(asked.err, HasSubstr("--spacing x,y,z"));
+  const Outcome info = run(folder, "info images --spacing 1,1,2 --json");
+  ASSERT_EQ(info.exit_code, 0) << info.err;
+  EXPECT_EQ(nlohmann::json::parse(info.out)["labels"].size(), 2U);
+  for (const std::string how : {"images", "images/*.png", "images --out-of-core"}) {
+    const Outcome made = run(folder, "reconstruct " + how +
+                                         " --spacing 1,1,2 --outline edges --only '#ff*' "
+                                         "--json -o out.ply");
+    ASSERT_EQ(made.exit_code, 0) << how << made.err;
+    const auto parts = nlohmann::json::parse(made.out)["parts"];
+    ASSERT_EQ(parts.size(), 1U) << how;
+    EXPECT_EQ(parts[0]["label"], "#ff0000");
+    EXPECT_DOUBLE_EQ(parts[0]["volume"], 2 * 2 * 4) << how;
+  }
 }
 
 }  // namespace
