@@ -1,17 +1,15 @@
 // SPDX-License-Identifier: MIT
 #include "io/stacks/seg.h"
 
-#include <dcmtk/dcmdata/dcxfer.h>
-
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
-#include "io/bytes/little_endian.h"
 #include "io/stacks/cielab.h"
 #include "io/stacks/seg_frames.h"
+#include "io/stacks/seg_pixels.h"
 #include "io/volumes/outlines.h"
 #include "reconstruct/defect.h"
 
@@ -27,7 +25,6 @@ class Segmentation {
       : object_(object), options_(options) {}
 
   Stack read() {
-    refuse_compressed();
     read_kind();
     read_sizes();
     frames_ = read_seg_frames(object_, kind_ != SegKind::label_map);
@@ -43,14 +40,6 @@ class Segmentation {
  private:
   [[noreturn]] void fail(const std::string& path, const std::string& what) const {
     throw InputError(object_.name() + ": " + path + ": " + what);
-  }
-
-  void refuse_compressed() const {
-    const std::string& uid = object_.transfer_syntax();
-    const DcmXfer syntax(uid.c_str());
-    if (uid.empty() || !syntax.isEncapsulated()) return;
-    fail("(7fe0,0010)", "pixels are compressed by " + std::string(syntax.getXferName()) + " (" +
-                            uid + "), which is not read; convert it with gdcmconv --raw IN OUT");
   }
 
   void read_kind() {
@@ -94,27 +83,7 @@ class Segmentation {
       fail("(0028,0008)", "frames are said to be " + std::to_string(std::llround(*told)) +
                               ", but (5200,9230) has " + std::to_string(count) +
                               " of them; export the segmentation again");
-    pixels_ = pixel_bytes();
-    frame_bits_ = std::uint64_t{volume_.rows} * volume_.columns * bits_;
-    const std::uint64_t needed = (frame_bits_ * count + 7) / 8;
-    if (pixels_.size() < needed)
-      fail("(7fe0,0010)", "has " + std::to_string(pixels_.size()) + " bytes where " +
-                              std::to_string(count) + " frames need " + std::to_string(needed) +
-                              "; the file was cut off, export it again");
-  }
-
-  /// As they are in memory, words in the order of the machine.
-  [[nodiscard]] std::string_view pixel_bytes() const {
-    const Uint8* bytes = nullptr;
-    const Uint16* words = nullptr;
-    unsigned long count = 0;
-    if (object_.data_set().findAndGetUint8Array(DCM_PixelData, bytes, &count).good() &&
-        bytes != nullptr)
-      return {reinterpret_cast<const char*>(bytes), count};
-    if (object_.data_set().findAndGetUint16Array(DCM_PixelData, words, &count).good() &&
-        words != nullptr)
-      return {reinterpret_cast<const char*>(words), 2 * count};
-    return {};
+    pixels_.emplace(object_, bits_, std::uint64_t{volume_.rows} * volume_.columns, count);
   }
 
   void read_segments() {
@@ -211,28 +180,17 @@ class Segmentation {
     };
   }
 
-  /// Bits of frames follow each other without any between, also within a byte.
   void read_frame(std::size_t frame, std::span<double> out) const {
-    std::uint64_t bit = frame_bits_ * frame;
-    for (double& value : out) {
-      const char* const place = pixels_.data() + bit / 8;
-      if (bits_ == 1)
-        value = static_cast<unsigned char>(*place) >> (bit % 8) & 1U;
-      else if (bits_ == 8)
-        value = static_cast<unsigned char>(*place);
-      else
-        value = get<std::uint16_t>(place, std::endian::native);
-      if (kind_ == SegKind::binary && value != 0) value = 1;
-      bit += bits_;
-    }
+    pixels_->read(frame, out);
+    if (kind_ == SegKind::binary)
+      for (double& value : out) value = value != 0 ? 1 : 0;
   }
 
   DicomObject& object_;
   const ReadOptions& options_;
   SegKind kind_ = SegKind::binary;
   std::uint16_t bits_ = 0;
-  std::uint64_t frame_bits_ = 0;
-  std::string_view pixels_;
+  std::optional<SegPixels> pixels_;
   SegFrames frames_;
   std::map<std::uint16_t, StackLabel> segments_;
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::size_t> frame_at_;  // by plane, layer

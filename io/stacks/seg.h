@@ -15,7 +15,8 @@ namespace loft::io {
 /// the options have a level.
 ///
 /// Frames may be in any order; see read_seg_frames() for those that are left out. Throws
-/// InputError with paths of tags, and for pixels that are compressed.
+/// InputError with paths of tags, and for pixels that are compressed by another way than RLE
+/// Lossless.
 [[nodiscard]] Stack read_segmentation(DicomObject& object, const ReadOptions& options);
 
 /// What DCMTK 3.6.7 has no name for.

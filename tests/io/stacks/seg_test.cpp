@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,7 @@
 #include "mesh/check.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/io/stacks/made_dicom.h"
+#include "tests/io/stacks/readers.h"
 #include "tests/io/volumes/masks.h"
 
 namespace loft::io {
@@ -339,10 +341,11 @@ TEST(Seg, ATypeOrBitsThatAreNoneAreNamed) {
   EXPECT_THAT(problem(made), HasSubstr("(0028,0100): 1 bits a pixel"));
 }
 
+constexpr const char* rle_lossless = "1.2.840.10008.1.2.5";
+
 /// With the transfer syntax of its meta information replaced by another.
-std::string with_syntax(std::string uid) {
+std::string with_syntax(std::string bytes, std::string uid) {
   const std::string old = "1.2.840.10008.1.2.1";
-  std::string bytes = file_of(three_frames());
   if (uid.size() % 2 != 0) uid += '\0';
   const std::size_t at = bytes.find(old);
   bytes[at - 2] = static_cast<char>(uid.size());
@@ -351,23 +354,136 @@ std::string with_syntax(std::string uid) {
   return bytes;
 }
 
-/// Its pixels as a fragment of four bytes.
-std::string with_fragment(std::string bytes) {
+/// Its pixels as fragments of even sizes, behind a table that is empty.
+std::string with_fragments(std::string bytes, const std::vector<std::string>& fragments) {
   const std::string tag("\xe0\x7f\x10\x00", 4);
   bytes.resize(bytes.rfind(tag));
-  return bytes + tag + std::string("OB\0\0\xff\xff\xff\xff", 8) +
-         std::string("\xfe\xff\x00\xe0\0\0\0\0", 8) +
-         std::string("\xfe\xff\x00\xe0\4\0\0\0abcd", 12) +
-         std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
+  bytes +=
+      tag + std::string("OB\0\0\xff\xff\xff\xff", 8) + std::string("\xfe\xff\x00\xe0\0\0\0\0", 8);
+  for (const std::string& fragment : fragments) {
+    bytes += std::string("\xfe\xff\x00\xe0", 4);
+    testing::append(bytes, static_cast<std::uint32_t>(fragment.size()), std::endian::little);
+    bytes += fragment;
+  }
+  return bytes + std::string("\xfe\xff\xdd\xe0\0\0\0\0", 8);
 }
 
 TEST(Seg, CompressedPixelsAreRefusedByName) {
-  EXPECT_THAT(problem(with_fragment(with_syntax("1.2.840.10008.1.2.4.90"))),
+  const auto with = [](const char* uid) {
+    return problem(with_fragments(with_syntax(file_of(three_frames()), uid), {"abcd"}));
+  };
+  EXPECT_THAT(with("1.2.840.10008.1.2.4.90"),
               HasSubstr("(7fe0,0010): pixels are compressed by JPEG 2000"));
-  EXPECT_THAT(problem(with_fragment(with_syntax("1.2.840.10008.1.2.5"))),
-              HasSubstr("(7fe0,0010): pixels are compressed by RLE Lossless"));
-  EXPECT_THAT(problem(with_fragment(with_syntax("1.2.840.10008.1.2.8.1"))),
+  EXPECT_THAT(with("1.2.840.10008.1.2.8.1"),
               HasSubstr("Deflated Image Frame Compression (1.2.840.10008.1.2.8.1)"));
+}
+
+/// Runs of what is the same, and of what is not.
+std::string packed_runs(const std::string& bytes) {
+  std::string packed;
+  for (std::size_t at = 0; at < bytes.size();) {
+    const std::size_t end = std::min(bytes.find_first_not_of(bytes[at], at), bytes.size());
+    const std::size_t count = std::min<std::size_t>(end - at, 128);
+    if (count > 1) {
+      packed += static_cast<char>(257 - count);
+    } else {
+      packed += std::string("\x80\0", 2);  // one that means nothing, and a run of one
+    }
+    packed += bytes[at];
+    at += count;
+  }
+  if (packed.size() % 2 != 0) packed += '\0';
+  return packed;
+}
+
+/// A frame by RLE Lossless.
+std::string packed_frame(const std::vector<std::string>& segments) {
+  std::string head;
+  testing::append(head, static_cast<std::uint32_t>(segments.size()), std::endian::little);
+  std::string runs;
+  for (const std::string& segment : segments) {
+    testing::append(head, static_cast<std::uint32_t>(64 + runs.size()), std::endian::little);
+    runs += packed_runs(segment);
+  }
+  head.resize(64);
+  return head + runs;
+}
+
+/// The same by RLE Lossless, frame by frame.
+std::string packed(const MadeSeg& made) {
+  std::vector<std::string> fragments;
+  for (const MadeFrame& frame : made.frames) {
+    std::vector<std::string> segments(made.bits == 16 ? 2 : 1);
+    std::size_t bit = 0;
+    for (const int pixel : frame.pixels) {
+      if (made.bits == 16) segments[0] += static_cast<char>(pixel >> 8);
+      if (made.bits > 1) {
+        segments.back() += static_cast<char>(pixel);
+        continue;
+      }
+      if (bit % 8 == 0) segments[0] += '\0';
+      segments[0].back() = static_cast<char>(segments[0].back() | pixel << (bit % 8));
+      ++bit;
+    }
+    fragments.push_back(packed_frame(segments));
+  }
+  return with_fragments(with_syntax(file_of(made), rle_lossless), fragments);
+}
+
+TEST(Seg, ByRleLosslessItIsTheSame) {
+  const auto seed = std::random_device{}();
+  SCOPED_TRACE("seed " + std::to_string(seed));
+  std::mt19937_64 random(seed);
+  for (const std::uint16_t bits : {std::uint16_t{8}, std::uint16_t{16}}) {
+    MadeSeg made;
+    made.sop_class = label_map;
+    made.type = "LABELMAP";
+    made.bits = bits;
+    const int step = bits == 8 ? 1 : 257;
+    std::vector<int> all;
+    for (const double z : {0.0, 4.0, 8.0}) {
+      std::vector<int> pixels = testing::random_labels(columns * rows, 3, random);
+      for (int& pixel : pixels) pixel *= step;
+      all.insert(all.end(), pixels.begin(), pixels.end());
+      made.frames.push_back({z, 0, pixels});
+    }
+    made.segments = {};
+    const Stack stack = read(packed(made));
+    EXPECT_EQ(stack, read(made));
+    EXPECT_EQ(testing::differing_pixels(stack, columns, rows, all, testing::number_as_name, 2, 3),
+              0U);
+  }
+}
+
+TEST(Seg, ByRleLosslessFramesOfBitsBeginWithAByteOfTheirOwn) {
+  EXPECT_EQ(read(packed(three_frames())), read(three_frames()));
+  MadeSeg shares;
+  shares.type = "FRACTIONAL";
+  shares.bits = 8;
+  shares.frames = {{0, 1, bars({1}, 128)}, {4, 1, bars({2, 3}, 200)}};
+  EXPECT_EQ(read(packed(shares)), read(shares));
+}
+
+TEST(Seg, OfRleLosslessDamageIsNamed) {
+  const auto with = [](const std::vector<std::string>& fragments) {
+    return problem(with_fragments(with_syntax(file_of(three_frames()), rle_lossless), fragments));
+  };
+  const std::string good = packed_frame({std::string(2, '\1')});
+  EXPECT_EQ(with({good, good, good}), "nothing");
+  EXPECT_THAT(with({good, good}), HasSubstr("(7fe0,0010): has 2 fragments for 3 frames"));
+  EXPECT_THAT(with({good, good, "abcd"}),
+              HasSubstr("(7fe0,0010): fragment 2, byte 0: there is no header of 64 bytes"));
+  EXPECT_THAT(with({packed_frame({"ab", "ab"}), good, good}), HasSubstr("has 2 segments"));
+  EXPECT_THAT(with({packed_frame({"a"}), good, good}), HasSubstr("the runs end too early"));
+  std::string beyond = good;
+  beyond[5] = '\1';  // begins at byte 320
+  EXPECT_THAT(with({good, beyond, good}), HasSubstr("fragment 1, byte 4: a segment from 320"));
+  EXPECT_THAT(with({}), HasSubstr("(7fe0,0010): has 0 fragments for 3 frames"));
+  EXPECT_THAT(problem(with_syntax(file_of(three_frames()), rle_lossless)),
+              HasSubstr("uses explicit length"));
+  const std::string bytes = packed(three_frames());
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_THAT(problem(bytes.substr(0, size)), HasSubstr("made.dcm: ")) << size;
 }
 
 TEST(Seg, CutOffAnywhereItIsRefused) {
