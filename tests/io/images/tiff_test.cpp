@@ -140,10 +140,10 @@ std::string written(const std::vector<int>& labels, const Packing& packing, bool
       TIFFSetField(tiff, TIFFTAG_TILEWIDTH, 32);
       TIFFSetField(tiff, TIFFTAG_TILELENGTH, 16);
       for (std::size_t tile = 0; tile < 6; ++tile) {
-        std::vector<std::uint16_t> pixels;
+        std::vector<std::uint16_t> tile_pixels;
         for (std::size_t i = 0; i < 512; ++i)
-          pixels.push_back(label(tile % 2 * 32 + i % 32, tile / 2 * 16 + i / 32));
-        TIFFWriteEncodedTile(tiff, static_cast<std::uint32_t>(tile), pixels.data(), 1024);
+          tile_pixels.push_back(label(tile % 2 * 32 + i % 32, tile / 2 * 16 + i / 32));
+        TIFFWriteEncodedTile(tiff, static_cast<std::uint32_t>(tile), tile_pixels.data(), 1024);
       }
     } else {
       TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 16);

@@ -88,8 +88,8 @@ std::size_t differing_pixels(const Stack& stack, std::size_t columns, std::size_
       if (value != 0)
         count +=
             encloses(stack.slices[i / columns / rows], name(value), centre) != (pixels[i] == value)
-                ? 1
-                : 0;
+                ? 1U
+                : 0U;
   }
   return count;
 }
