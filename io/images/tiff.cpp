@@ -17,7 +17,7 @@ namespace {
 /// What pages may take once they are unpacked: more is in no file but of nothing at all.
 std::uint64_t most_bytes_of(std::span<const StackInput> inputs) {
   constexpr std::uint64_t most_packed = 1100;  // bytes in one, by deflate
-  constexpr std::uint64_t always = std::uint64_t{32} << 20U;
+  constexpr std::uint64_t always = std::uint64_t{8} << 20U;
   std::uint64_t total = 0;
   for (const StackInput& input : inputs) total += input.bytes.size();
   return std::min<std::uint64_t>(total, std::numeric_limits<std::uint32_t>::max()) * most_packed +

@@ -185,6 +185,8 @@ TEST(Stacks, AFolderOfImagesIsOne) {
   const Outcome info = run(folder, "info images --spacing 1,1,2 --json");
   ASSERT_EQ(info.exit_code, 0) << info.err;
   EXPECT_EQ(nlohmann::json::parse(info.out)["labels"].size(), 2U);
+  EXPECT_THAT(run(folder, "info images --spacing 1,1,2 --level 1").err,
+              HasSubstr("a level is for images of grey"));
   for (const std::string how : {"images", "images/*.png", "images --out-of-core"}) {
     const Outcome made = run(folder, "reconstruct " + how +
                                          " --spacing 1,1,2 --outline edges --only '#ff*' "
