@@ -256,16 +256,15 @@ void TrianglePairs::refresh(std::uint32_t node, std::span<const std::uint32_t> p
   if (places.empty()) return;
   Node& n = nodes_[node];
   n.round = round_;
-  if (n.turned != none)
-    for (const std::uint32_t place : places)
-      for (const Vec3& p : triangles[items_[place].index]) turned_[n.turned].add(p);
+  if (n.turned != none) refresh_turned(n, places, triangles);
   if (n.second == 0) {
     for (const std::uint32_t place : places) {
       const auto& [a, b, c] = triangles[items_[place].index];
       items_[place].box = box_around(a, b, c);
       items_[place].round = round_;
-      n.box = joined(n.box, items_[place].box);
     }
+    n.box = no_box;
+    for (std::uint32_t i = n.first; i < n.last; ++i) n.box = joined(n.box, items_[i].box);
     return;
   }
   const auto half = std::ranges::lower_bound(places, nodes_[n.second].first) - places.begin();
@@ -276,6 +275,23 @@ void TrianglePairs::refresh(std::uint32_t node, std::span<const std::uint32_t> p
   Fan& fan = fans_[n.fan];
   const auto items = std::span<const Item>(items_).subspan(n.first, n.last - n.first);
   fan.arcs = arcs_of(items, fan.hub, triangles, vertices);
+}
+
+/// A small one is made anew: what has moved is far from where it was, in widths of what is long and
+/// thin, and as wide a box meets all that is near.
+void TrianglePairs::refresh_turned(const Node& node, std::span<const std::uint32_t> places,
+                                   std::span<const Corners> triangles) {
+  constexpr std::uint32_t small = 256;
+  TurnedBox& turned = turned_[node.turned];
+  const auto add = [&](std::uint32_t place) {
+    for (const Vec3& p : triangles[items_[place].index]) turned.add(p);
+  };
+  if (node.last - node.first > small) {
+    std::ranges::for_each(places, add);
+    return;
+  }
+  turned.clear();
+  for (std::uint32_t i = node.first; i < node.last; ++i) add(i);
 }
 
 bool TrianglePairs::are_apart(const Node& a, const Node& b) const {
