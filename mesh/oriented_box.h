@@ -40,6 +40,12 @@ class TurnedBox {
   /// Holds nothing. Precondition: the lie has a length.
   explicit TurnedBox(const Lie& lie);
 
+  /// Holds nothing from then on, and stays turned.
+  void clear() {
+    low_ = no_box.low;
+    high_ = no_box.high;
+  }
+
   void add(const Vec3& point) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double at = axes_[i][0] * point[0] + axes_[i][1] * point[1] + axes_[i][2] * point[2];

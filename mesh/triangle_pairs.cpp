@@ -54,7 +54,7 @@ class TrianglePairs::Builder {
  public:
   Builder(TrianglePairs& pairs, std::span<const Corners> triangles,
           std::span<const Vertices> vertices, std::size_t vertex_count, double reach)
-      : pairs_(pairs), triangles_(triangles), vertices_(vertices), reach_(reach) {
+      : pairs_(pairs), all_(triangles), triangles_(triangles), vertices_(vertices), reach_(reach) {
     lies_.reserve(triangles.size());
     for (const Corners& t : triangles) lies_.push_back(lie_of(t));
     std::vector<Unit> units = units_of(find_hubs(vertex_count));
@@ -68,11 +68,44 @@ class TrianglePairs::Builder {
   struct Unit {
     std::uint32_t first;  // of order_
     std::uint32_t last;
+    std::uint32_t rank;  // before all with a larger one, of those that are alike
     std::uint32_t hub = none;
     double middle = 0;  // twice, along the axis at hand
 
     [[nodiscard]] std::uint32_t size() const { return last - first; }
   };
+
+  /// So many units are brought together in memory: they fit into what is next to a processor.
+  static constexpr std::size_t most_together = 8192;
+
+  /// For some units of a whole, with copies of their triangles side by side.
+  Builder(const Builder& whole, std::span<Unit> units)
+      : pairs_(whole.pairs_), all_(whole.all_), vertices_(whole.vertices_), reach_(whole.reach_) {
+    for (Unit& unit : units) {
+      const auto first = static_cast<std::uint32_t>(order_.size());
+      for (const std::uint32_t t : whole.triangles_of(unit)) {
+        order_.push_back(static_cast<std::uint32_t>(order_.size()));
+        numbers_.push_back(whole.number(t));
+        copies_.push_back(whole.triangles_[t]);
+        lies_.push_back(whole.lies_[t]);
+      }
+      unit.first = first;
+      unit.last = static_cast<std::uint32_t>(order_.size());
+    }
+    triangles_ = copies_;
+  }
+
+  /// Whether most of what is here is of other units, and so far apart.
+  [[nodiscard]] bool are_scattered(std::span<const Unit> units) const {
+    if (units.size() > most_together || order_.size() <= 2 * most_together) return false;
+    std::size_t count = 0;
+    for (const Unit& unit : units) count += unit.size();
+    return 2 * count < order_.size();
+  }
+
+  [[nodiscard]] std::uint32_t number(std::uint32_t triangle) const {
+    return numbers_.empty() ? triangle : numbers_[triangle];
+  }
 
   /// Each triangle at a vertex of many is in the fan of that, of several of the largest.
   [[nodiscard]] std::vector<std::uint32_t> find_hubs(std::size_t vertex_count) const {
@@ -108,12 +141,12 @@ class TrianglePairs::Builder {
                      [&](std::uint32_t a, std::uint32_t b) { return hubs[a] < hubs[b]; });
     std::vector<Unit> units;
     units.reserve(alone);
-    for (std::uint32_t i = 0; i < alone; ++i) units.push_back({i, i + 1});
+    for (std::uint32_t i = 0; i < alone; ++i) units.push_back({i, i + 1, i});
     for (std::uint32_t first = alone; first < order_.size();) {
       const std::uint32_t hub = hubs[order_[first]];
       std::uint32_t last = first;
       while (last < order_.size() && hubs[order_[last]] == hub) ++last;
-      units.push_back({first, last, hub});
+      units.push_back({first, last, first, hub});
       first = last;
     }
     return units;
@@ -121,6 +154,7 @@ class TrianglePairs::Builder {
 
   /// The place of the node that holds them.
   std::uint32_t build(std::span<Unit> units) {
+    if (are_scattered(units)) return Builder(*this, units).build(units);
     if (units.size() == 1 && units[0].size() > 1) return build_fan(units[0]);
     const auto node = static_cast<std::uint32_t>(pairs_.nodes_.size());
     pairs_.nodes_.push_back({.first = item_count()});
@@ -129,7 +163,7 @@ class TrianglePairs::Builder {
                          std::ranges::all_of(units, [](const Unit& u) { return u.size() == 1; });
     if (is_leaf) {
       for (const Unit& unit : units)
-        pairs_.items_.push_back({box(order_[unit.first]), order_[unit.first]});
+        pairs_.items_.push_back({box(order_[unit.first]), number(order_[unit.first])});
     } else {
       const std::size_t half = halve(node, units);
       build(units.first(half));
@@ -142,13 +176,13 @@ class TrianglePairs::Builder {
   /// Over the triangles of one fan, and its arcs.
   std::uint32_t build_fan(const Unit& fan) {
     std::vector<Unit> units;
-    for (std::uint32_t i = fan.first; i < fan.last; ++i) units.push_back({i, i + 1});
+    for (std::uint32_t i = fan.first; i < fan.last; ++i) units.push_back({i, i + 1, i});
     const std::uint32_t hub = fan.hub;
     const std::uint32_t node = build(units);
     const std::uint32_t first = pairs_.nodes_[node].first;
     pairs_.nodes_[node].fan = static_cast<std::uint32_t>(pairs_.fans_.size());
     const auto items = std::span<const Item>(pairs_.items_).subspan(first);
-    pairs_.fans_.push_back({arcs_of(items, hub, triangles_, vertices_), first, hub});
+    pairs_.fans_.push_back({arcs_of(items, hub, all_, vertices_), first, hub});
     return node;
   }
 
@@ -186,7 +220,7 @@ class TrianglePairs::Builder {
     for (const Vec3& axis : best_axes(node, units)) {
       for (Unit& unit : units) unit.middle = extent(unit, axis).twice_middle();
       std::ranges::nth_element(units, units.begin() + static_cast<std::ptrdiff_t>(half), {},
-                               [](const Unit& unit) { return std::pair(unit.middle, unit.first); });
+                               [](const Unit& unit) { return std::pair(unit.middle, unit.rank); });
       if (!are_most_alike(units, units[half].middle, std::mem_fn(&Unit::middle))) break;
     }
     return half;
@@ -213,11 +247,14 @@ class TrianglePairs::Builder {
   }
 
   TrianglePairs& pairs_;
-  std::span<const Corners> triangles_;
-  std::span<const Vertices> vertices_;
+  std::span<const Corners> all_;
+  std::span<const Corners> triangles_;  // those here
+  std::span<const Vertices> vertices_;  // of all
   double reach_;
-  std::vector<Lie> lies_;
-  std::vector<std::uint32_t> order_;  // of the triangles, by units
+  std::vector<Lie> lies_;               // of those here
+  std::vector<std::uint32_t> order_;    // of those here, by units
+  std::vector<std::uint32_t> numbers_;  // of each that is here, among all; empty: all are
+  std::vector<Corners> copies_;
 };
 
 TrianglePairs::TrianglePairs(std::span<const Corners> triangles, std::span<const Vertices> vertices,
@@ -256,16 +293,15 @@ void TrianglePairs::refresh(std::uint32_t node, std::span<const std::uint32_t> p
   if (places.empty()) return;
   Node& n = nodes_[node];
   n.round = round_;
-  if (n.turned != none)
-    for (const std::uint32_t place : places)
-      for (const Vec3& p : triangles[items_[place].index]) turned_[n.turned].add(p);
+  if (n.turned != none) refresh_turned(n, places, triangles);
   if (n.second == 0) {
     for (const std::uint32_t place : places) {
       const auto& [a, b, c] = triangles[items_[place].index];
       items_[place].box = box_around(a, b, c);
       items_[place].round = round_;
-      n.box = joined(n.box, items_[place].box);
     }
+    n.box = no_box;
+    for (std::uint32_t i = n.first; i < n.last; ++i) n.box = joined(n.box, items_[i].box);
     return;
   }
   const auto half = std::ranges::lower_bound(places, nodes_[n.second].first) - places.begin();
@@ -276,6 +312,23 @@ void TrianglePairs::refresh(std::uint32_t node, std::span<const std::uint32_t> p
   Fan& fan = fans_[n.fan];
   const auto items = std::span<const Item>(items_).subspan(n.first, n.last - n.first);
   fan.arcs = arcs_of(items, fan.hub, triangles, vertices);
+}
+
+/// A small one is made anew: what has moved is far from where it was, in widths of what is long and
+/// thin, and as wide a box meets all that is near.
+void TrianglePairs::refresh_turned(const Node& node, std::span<const std::uint32_t> places,
+                                   std::span<const Corners> triangles) {
+  constexpr std::uint32_t small = 256;
+  TurnedBox& turned = turned_[node.turned];
+  const auto add = [&](std::uint32_t place) {
+    for (const Vec3& p : triangles[items_[place].index]) turned.add(p);
+  };
+  if (node.last - node.first > small) {
+    std::ranges::for_each(places, add);
+    return;
+  }
+  turned.clear();
+  for (std::uint32_t i = node.first; i < node.last; ++i) add(i);
 }
 
 bool TrianglePairs::are_apart(const Node& a, const Node& b) const {

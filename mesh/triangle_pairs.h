@@ -96,6 +96,8 @@ class TrianglePairs {
   /// Of the places of the changed ones among the items those of a node.
   void refresh(std::uint32_t node, std::span<const std::uint32_t> places,
                std::span<const Corners> triangles, std::span<const Vertices> vertices);
+  void refresh_turned(const Node& node, std::span<const std::uint32_t> places,
+                      std::span<const Corners> triangles);
 
   /// Whether turned boxes show two nodes apart.
   [[nodiscard]] bool are_apart(const Node& a, const Node& b) const;

@@ -120,10 +120,25 @@ class SimpleSlice {
         --steps_left;
         return j <= i || !boxes_meet(boxes[i], boxes[j]) || !meet(edges_[i], edges_[j]);
       });
-      if (steps_left == 0) return slanted_are_apart();
+      if (steps_left == 0) return crowded_are_apart(boxes);
       if (!is_apart) return false;
     }
     return true;
+  }
+
+  /// The same by a tree of boxes: one long outline has nearly all of its edges in a few cells of a
+  /// grid.
+  [[nodiscard]] bool crowded_are_apart(std::span<const Box> boxes) const {
+    std::vector<Box3> flat_boxes;
+    flat_boxes.reserve(boxes.size());
+    for (const Box& box : boxes) flat_boxes.push_back({flat(box.low), flat(box.high)});
+    std::size_t steps_left = most_steps * edges_.size();
+    const bool is_apart = BoxTree(flat_boxes).all_of_pairs([&](std::uint32_t i, std::uint32_t j) {
+      if (steps_left == 0) return false;
+      --steps_left;
+      return !meet(edges_[i], edges_[j]);
+    });
+    return steps_left == 0 ? slanted_are_apart() : is_apart;
   }
 
   /// The same by a tree of turned boxes.

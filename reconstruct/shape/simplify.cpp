@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -228,7 +229,7 @@ class Simplifier {
   /// Whether both surfaces stay within the tolerance of each other.
   bool stays_near(const Target& target) {
     if (!witnesses_) return true;
-    auto& [gone, made, beside, is_map] = change_;
+    auto& [gone, made, beside, moved] = change_;
     gone.clear();
     made.clear();
     beside.clear();
@@ -242,7 +243,7 @@ class Simplifier {
         beside.push_back(rank_of_[index(surface_.face_handle(outer))]);
     }
     // What an open fan loses beyond its new rim has no place to be mapped to.
-    is_map = !fan_.is_open() && target.distance <= tolerance_;
+    moved = fan_.is_open() ? std::numeric_limits<double>::infinity() : target.distance;
     return witnesses_->keeps_near(change_);
   }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -56,18 +55,49 @@ Vec3 middle(const Vec3& a, const Vec3& b) {
 /// What a connected piece of the tiles is bent to; nothing if its slices do not tell.
 using Shape = std::variant<std::monostate, SmoothPassage, SmoothEnd>;
 
-/// Numbers edges by their nodes.
+/// Numbers edges by their nodes. All in one table, at most half full: what takes the time is
+/// waiting for memory, and here an edge is where it is looked for or next to it.
 class EdgeIndex {
  public:
-  /// The value of an edge, and whether it was set before.
+  /// The value of an edge, and whether it was set before. Holds until the next call.
   std::pair<std::uint32_t&, bool> at(std::uint32_t a, std::uint32_t b) {
+    if (2 * count_ >= entries_.size()) grow();
     const auto [low, high] = std::minmax(a, b);
-    const auto [entry, is_new] = values_.try_emplace(std::uint64_t{low} << 32 | high, none);
-    return {entry->second, !is_new};
+    Entry& entry = entries_[slot(low, high)];
+    const bool is_known = entry.low != none;
+    if (!is_known) {
+      entry = {low, high, none};
+      ++count_;
+    }
+    return {entry.value, is_known};
   }
 
  private:
-  std::unordered_map<std::uint64_t, std::uint32_t> values_;  // looked up, never walked through
+  struct Entry {
+    std::uint32_t low = none;
+    std::uint32_t high = none;
+    std::uint32_t value = none;
+  };
+
+  /// Where an edge is, or would be.
+  [[nodiscard]] std::size_t slot(std::uint32_t low, std::uint32_t high) const {
+    constexpr std::uint64_t golden = 0x9e37'79b9'7f4a'7c15;  // 2^64 by the golden ratio
+    const std::uint64_t hash = ((std::uint64_t{low} << 32 | high) * golden) >> 32;
+    std::size_t at = (hash * entries_.size()) >> 32;
+    while (entries_[at].low != none && (entries_[at].low != low || entries_[at].high != high))
+      at = at + 1 == entries_.size() ? 0 : at + 1;
+    return at;
+  }
+
+  void grow() {
+    std::vector<Entry> old(std::max<std::size_t>(1024, 2 * entries_.size()));
+    old.swap(entries_);
+    for (const Entry& entry : old)
+      if (entry.low != none) entries_[slot(entry.low, entry.high)] = entry;
+  }
+
+  std::vector<Entry> entries_;  // looked up, never walked through in their order
+  std::size_t count_ = 0;
 };
 
 /// The deepest known place of a part.

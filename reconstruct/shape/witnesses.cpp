@@ -7,6 +7,9 @@ namespace loft {
 
 namespace {
 
+/// More than rounding may make of how far a map moves a point, as a share of the distance.
+constexpr double rounding = 0x1p-10;
+
 void make_unique(std::vector<std::uint32_t>& numbers) {
   std::ranges::sort(numbers);
   numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
@@ -40,9 +43,13 @@ bool Witnesses::keeps_near(const Change& change) {
   for (const std::uint32_t face : change.gone) gone_[face] = change_;
   find_affected(change.gone);
   found_.clear();
-  is_by_map_ = change.is_map && std::ranges::all_of(change.gone, [this](std::uint32_t face) {
-                 return is_mapped_[face];
-               });
+  around_made_.clear();
+  is_by_map_ =
+      change.moved <= distance_ &&
+      std::ranges::all_of(change.gone, [this](std::uint32_t face) { return is_mapped_[face]; });
+  if (is_by_map_)
+    for (const Made& each : change.made)
+      around_made_.emplace_back(each.corners, change.moved + rounding * distance_);
   const auto stays_near = [&](std::uint32_t first_face) {
     if (!is_by_map_ || !first_is_mapped_[first_face]) return finds_witnesses(first_face, change);
     follow_map(first_face, change);
@@ -78,10 +85,9 @@ void Witnesses::find_affected(std::span<const std::uint32_t> gone) {
 void Witnesses::follow_map(std::uint32_t first_face, const Change& change) {
   for (const std::uint32_t face : witnesses_[first_face])
     if (!is_gone(face)) found_.emplace_back(first_face, face);
-  const Box3 around = box(first_[first_face]);
-  for (const Made& each : change.made)
-    if (boxes_are_near(around, box(each.corners), distance_))
-      found_.emplace_back(first_face, each.face);
+  for (std::size_t i = 0; i < change.made.size(); ++i)
+    if (around_made_[i].may_meet(first_[first_face]))
+      found_.emplace_back(first_face, change.made[i].face);
 }
 
 bool Witnesses::finds_witnesses(std::uint32_t first_face, const Change& change) {

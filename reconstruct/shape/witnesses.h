@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "mesh/predicates.h"
 #include "reconstruct/shape/cover.h"
 #include "reconstruct/shape/nearness.h"
+#include "reconstruct/shape/prism.h"
 
 namespace loft {
 
@@ -44,9 +46,9 @@ class Witnesses {
     std::vector<std::uint32_t> gone;
     std::vector<Made> made;
     std::vector<std::uint32_t> beside;  ///< faces along the rim of both
-    /// Whether this and the changes that made `gone` are maps of the one to the other that together
-    /// have moved no point of theirs by more than the distance.
-    bool is_map = false;
+    /// How far this and the changes that made `gone` together have moved any point of theirs, as
+    /// maps of the one to the other; infinite if some was none.
+    double moved = std::numeric_limits<double>::infinity();
   };
 
   /// Whether all stays near by a change.
@@ -61,7 +63,8 @@ class Witnesses {
   /// The first faces of which some of `gone` is a witness.
   void find_affected(std::span<const std::uint32_t> gone);
 
-  /// Witnesses of a face without a search: those that it has and keeps, and all that is made near.
+  /// Witnesses of a face without a search: those that it has and keeps, and all that is made where
+  /// it may have been moved to.
   void follow_map(std::uint32_t first_face, const Change& change);
 
   [[nodiscard]] bool finds_witnesses(std::uint32_t first_face, const Change& change);
@@ -84,7 +87,8 @@ class Witnesses {
   // Of the change at hand.
   std::vector<std::uint32_t> gone_;  // of each face: the last change that replaces it
   std::uint32_t change_ = 0;
-  bool is_by_map_ = false;  // it needs no search for what is made
+  bool is_by_map_ = false;          // it needs no search for what is made
+  std::vector<Prism> around_made_;  // where what is mapped to each that is made may come from
   Faces affected_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> found_;  // a first face, its new witness
   Faces choice_;

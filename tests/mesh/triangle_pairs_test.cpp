@@ -203,6 +203,55 @@ TEST(TrianglePairs, TestsAFewPairsWhereOneTriangleOfAFanChanged) {
   EXPECT_LT(tested, 100U);
 }
 
+TEST(TrianglePairs, TestsAFewPairsWhereThinTrianglesMovedAndCameBack) {
+  const Mesh ring = slanted_ring(8000);
+  TrianglePairs pairs(corners_of(ring), ring.faces, ring.points.size());
+  Mesh moved = ring;
+  moved.points[2] = {0, 0, 0.5};
+  const std::vector<std::uint32_t> changed{0, 1, 2};
+  pairs.update(changed, corners_of(moved), ring.faces);
+  pairs.update(changed, corners_of(ring), ring.faces);
+  std::size_t tested = 0;
+  pairs.for_each_changed([&](std::uint32_t, std::uint32_t) { ++tested; });
+  EXPECT_GT(tested, 0U);
+  EXPECT_LT(tested, 500U);
+}
+
+/// So many that their branches are made apart from each other.
+TEST(TrianglePairs, FindsWhatAFewMeetAmongMany) {
+  constexpr unsigned seed = 41;
+  SCOPED_TRACE(seed);
+  std::mt19937 random(seed);
+  std::uniform_real_distribution place(-10.0, 10.0);
+  std::uniform_real_distribution height(0.9, 1.7);
+  Mesh mesh = slanted_both_ways(8000);
+  const Mesh fan = cone(9000);
+  const auto add = [&mesh](const Mesh& other) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), other.points.begin(), other.points.end());
+    for (const auto& [a, b, c] : other.faces)
+      mesh.faces.push_back({first + a, first + b, first + c});
+  };
+  add(fan);
+  const std::size_t many = mesh.faces.size();
+  for (int i = 0; i < 4; ++i) {
+    Mesh one;
+    for (int corner = 0; corner < 3; ++corner)
+      one.points.push_back({place(random), place(random), height(random)});
+    one.faces = {{0, 1, 2}};
+    add(one);
+  }
+  Pairs found = meeting_by_tree(mesh).second;
+  std::erase_if(found, [&](const auto& pair) { return pair.second < many; });
+  const std::vector<Corners> triangles = corners_of(mesh);
+  Pairs expected;
+  for (std::uint32_t i = 0; i < triangles.size(); ++i)
+    for (auto j = std::max(i + 1, static_cast<std::uint32_t>(many)); j < triangles.size(); ++j)
+      if (triangles_meet(triangles[i], triangles[j])) expected.emplace_back(i, j);
+  EXPECT_GT(expected.size(), 4U);
+  EXPECT_EQ(found, expected);
+}
+
 TEST(TrianglePairs, StopsAtThePairThatFails) {
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, std::vector(50, std::array{0U, 1U, 2U})};
   int count = 0;
