@@ -96,7 +96,9 @@ TEST(PinHoles, AreFourPixelsWideOrSeveralLinesOfThem) {
     const bool is_channel = width == 4 || width == 5;
     EXPECT_EQ(close_pin_holes(contours).count, is_channel ? 1U : 0U) << width;
     EXPECT_EQ(points_of(contours).size(), is_channel ? 2U : 1U) << width;
-    if (!is_channel) EXPECT_EQ(points_of(contours), points_of(drawn)) << width;
+    if (!is_channel) {
+      EXPECT_EQ(points_of(contours), points_of(drawn)) << width;
+    }
   }
 }
 
