@@ -329,8 +329,7 @@ TEST(Loft, ShowsWhatIsInAStack) {
   static_cast<void>(folder.write("in.ndjson", labelled + "\n" + slice(4, "")));
   const Outcome outcome = run(folder, "info in.ndjson");
   EXPECT_EQ(outcome.exit_code, 0);
-  EXPECT_NE(outcome.out.find("3 slices, 4 contours, 40 vertices, 1 slice empty"),
-            std::string::npos)
+  EXPECT_NE(outcome.out.find("3 slices, 4 contours, 40 vertices, 1 slice empty"), std::string::npos)
       << outcome.out;
   EXPECT_NE(outcome.out.find("gaps between slices 1 to 3"), std::string::npos) << outcome.out;
   EXPECT_NE(outcome.out.find("label 'lung': 2 slices, 2 contours, 24 vertices"), std::string::npos);
