@@ -19,8 +19,6 @@ bool contains(std::span<const std::uint32_t> numbers, std::uint32_t number) {
   return std::ranges::find(numbers, number) != numbers.end();
 }
 
-Box3 box(const Corners& t) { return box_around(t[0], t[1], t[2]); }
-
 }  // namespace
 
 Witnesses::Witnesses(std::vector<Corners> faces, std::vector<Cover::Neighbours> neighbours,
