@@ -181,9 +181,10 @@ class StructureSet {
   /// By several threads at once.
   static Points read_points(const Claim& claim) {
     constexpr std::size_t least = 6;  // bytes that a point takes
-    const double most = static_cast<double>(claim.numbers.size() / least + 1);
+    const std::size_t room = claim.numbers.size() / least + 1;
     Points result;
-    result.points.reserve(static_cast<std::size_t>(std::clamp(claim.count.value_or(0), 0.0, most)));
+    result.points.reserve(static_cast<std::size_t>(
+        std::clamp(claim.count.value_or(0), 0.0, static_cast<double>(room))));
     std::size_t count = 0;
     for (std::string_view text = claim.numbers; !text.empty(); ++count) {
       std::string_view before = text;
