@@ -303,7 +303,7 @@ TEST(PinHoles, AreGoneOnceTheyAreClosed) {
   std::mt19937 random(seed);
   const auto any = [&](int end) { return static_cast<int>(random() % static_cast<unsigned>(end)); };
   std::size_t count = 0;
-  for (int round = 0; round < 300; ++round) {
+  for (int round = 0; round < 300 || (count == 0 && round < 30'000); ++round) {  // few have any
     // Anything on a lattice, with long sides four or more apart.
     Contours contours{contour({{50, 50}, {51, 50}, {51, 51}})};
     for (int i = 0; i < 4; ++i) {
