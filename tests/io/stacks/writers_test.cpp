@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <random>
 #include <sstream>
 
@@ -40,24 +41,13 @@ Points square(double x, double y, double side) {
   return {{x, y}, {x + side, y}, {x + side, y + side}, {x, y + side}};
 }
 
-/// The loops of what each label encloses, whatever their order and their first points.
-std::vector<Points> loops(const Stack& stack, std::uint32_t slice) {
-  std::vector<Points> result;
-  for (const auto& [label, region] : slice_outlines(stack, slice)) {
-    for (std::size_t i = 0; i < region.loop_count(); ++i) {
-      Points points;
-      for (const std::uint32_t v : region.loop(i)) points.push_back(region.points[v]);
-      std::ranges::rotate(points, std::ranges::min_element(points, {}, [](const cdt::Point& p) {
-                            return std::pair(p.x, p.y);
-                          }));
-      result.push_back(std::move(points));
-    }
-  }
-  std::ranges::sort(result, {}, [](const Points& points) {
-    std::vector<std::pair<double, double>> pairs;
-    for (const cdt::Point& p : points) pairs.emplace_back(p.x, p.y);
-    return pairs;
-  });
+/// The edges around what each label encloses: places from and to, sorted.
+std::vector<std::array<double, 4>> edges(const Stack& stack, std::uint32_t slice) {
+  std::vector<std::array<double, 4>> result;
+  for (const auto& [label, region] : slice_outlines(stack, slice))
+    for (const Segment& edge : boundary(region))
+      result.push_back({edge[0].x, edge[0].y, edge[1].x, edge[1].y});
+  std::ranges::sort(result);
   return result;
 }
 
@@ -94,7 +84,7 @@ TEST(CliWriter, KeepsCoordinatesAndLabels) {
   ASSERT_EQ(again.slices.size(), 3U);
   for (std::uint32_t s = 0; s < 3; ++s) {
     EXPECT_EQ(again.slices[s].z, stack.slices[s].z);
-    EXPECT_EQ(loops(again, s), loops(stack, s));
+    EXPECT_EQ(edges(again, s), edges(stack, s));
   }
   EXPECT_THAT(labels_in(again.slices[0]), ElementsAre("room", "wall", "wall"));
 }
@@ -151,7 +141,7 @@ TEST(ContourWriter, IsReadAgain) {
   ASSERT_EQ(again.slices.size(), 3U);
   for (std::uint32_t s = 0; s < 3; ++s) {
     EXPECT_EQ(again.slices[s].z, stack.slices[s].z);
-    EXPECT_EQ(loops(again, s), loops(stack, s));
+    EXPECT_EQ(edges(again, s), edges(stack, s));
   }
   EXPECT_THAT(labels_in(again.slices[2]), ElementsAre("material 2"));
 }
@@ -185,9 +175,9 @@ TEST(Writers, KeepWhatRandomContoursEnclose) {
       slice.contours.push_back({std::move(points), "a"});
     }
     stack.slices = {slice};
-    if (loops(stack, 0).empty()) continue;
-    EXPECT_EQ(loops(read(read_cli, write(write_cli, stack).text), 0), loops(stack, 0)) << round;
-    EXPECT_EQ(loops(read(read_contour, write(write_contour, stack).text), 0), loops(stack, 0))
+    if (edges(stack, 0).empty()) continue;
+    EXPECT_EQ(edges(read(read_cli, write(write_cli, stack).text), 0), edges(stack, 0)) << round;
+    EXPECT_EQ(edges(read(read_contour, write(write_contour, stack).text), 0), edges(stack, 0))
         << round;
   }
 }
