@@ -5,7 +5,6 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <sstream>
@@ -13,6 +12,7 @@
 #include <utility>
 
 #include "io/bytes/text.h"
+#include "io/bytes/words.h"
 
 namespace loft::io {
 
@@ -100,11 +100,7 @@ std::string_view FileBytes::view() const {
 }
 
 std::string extension(const std::filesystem::path& path) {
-  std::string result = path.extension().string();
-  std::ranges::transform(result, result.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return result;
+  return in_lower_case(path.extension().string());
 }
 
 }  // namespace loft::io

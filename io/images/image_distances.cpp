@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "io/bytes/words.h"
+#include "io/unit.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
 
@@ -16,28 +17,17 @@ namespace {
 
 struct LengthUnit {
   std::string_view name;
-  double metres;
-  std::string_view written;
+  std::string_view written;  // as metres_per_unit() knows it
 };
 /// By the names that programs write; a micro sign is one of two characters, as UTF-8, Latin-1 or
 /// escaped.
 constexpr std::array length_units{
-    LengthUnit{"m", 1, "m"},
-    LengthUnit{"cm", 1e-2, "cm"},
-    LengthUnit{"mm", 1e-3, "mm"},
-    LengthUnit{"um", 1e-6, "um"},
-    LengthUnit{"micron", 1e-6, "um"},
-    LengthUnit{"microns", 1e-6, "um"},
-    LengthUnit{"micrometer", 1e-6, "um"},
-    LengthUnit{"\xC2\xB5m", 1e-6, "um"},
-    LengthUnit{"\xCE\xBCm", 1e-6, "um"},
-    LengthUnit{"\xB5m", 1e-6, "um"},
-    LengthUnit{"\\u00B5m", 1e-6, "um"},
-    LengthUnit{"&#181;m", 1e-6, "um"},
-    LengthUnit{"&#xB5;m", 1e-6, "um"},
-    LengthUnit{"nm", 1e-9, "nm"},
-    LengthUnit{"inch", 0.0254, "in"},
-    LengthUnit{"in", 0.0254, "in"},
+    LengthUnit{"m", "m"},           LengthUnit{"cm", "cm"},        LengthUnit{"mm", "mm"},
+    LengthUnit{"um", "um"},         LengthUnit{"micron", "um"},    LengthUnit{"microns", "um"},
+    LengthUnit{"micrometer", "um"}, LengthUnit{"\xC2\xB5m", "um"}, LengthUnit{"\xCE\xBCm", "um"},
+    LengthUnit{"\xB5m", "um"},      LengthUnit{"\\u00B5m", "um"},  LengthUnit{"&#181;m", "um"},
+    LengthUnit{"&#xB5;m", "um"},    LengthUnit{"nm", "nm"},        LengthUnit{"inch", "in"},
+    LengthUnit{"in", "in"},
 };
 
 const LengthUnit* find_unit(std::string_view name) {
@@ -123,7 +113,8 @@ ImageDistances of_ome(std::string_view pixels) {
     const auto number = as_distance(number_in(attribute(pixels, name)));
     if (!number || own == first) return number;
     if (own == nullptr || first == nullptr) return {};  // of pixels or the like
-    return *number * (own->metres / first->metres);
+    return *number *
+           (metres_per_unit(own->written).value() / metres_per_unit(first->written).value());
   };
   result.x = distance("PhysicalSizeX", first);
   result.y = distance("PhysicalSizeY", unit("PhysicalSizeYUnit"));

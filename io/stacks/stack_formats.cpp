@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <array>
-#include <cctype>
 
+#include "io/bytes/words.h"
 #include "io/images/png.h"
 #include "io/images/tiff.h"
 #include "io/stacks/cli.h"
@@ -59,10 +59,7 @@ constexpr std::array later_formats{
 
 /// The file's name in lower case.
 std::string name_of(const std::filesystem::path& path) {
-  std::string name = path.filename().string();
-  std::ranges::transform(name, name.begin(),
-                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return name;
+  return in_lower_case(path.filename().string());
 }
 
 /// The longest of some extensions that a name ends in: its length, or 0.
