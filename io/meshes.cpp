@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/bytes/file.h"
+#include "io/bytes/format_table.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/obj.h"
 #include "io/meshes/off.h"
@@ -29,45 +30,33 @@ std::vector<LabelledMesh> read_gltf_file(const std::filesystem::path& path) {
   return read_gltf(path);
 }
 
-struct Format {
+struct MeshReader {
   std::string_view extension;
   std::vector<LabelledMesh> (*read)(const std::filesystem::path&);
   bool keeps_coordinates;
 };
 
-constexpr std::array formats{
-    Format{".ply", read_with<read_ply>, true}, Format{".obj", read_with<read_obj>, true},
-    Format{".off", read_with<read_off>, true}, Format{".stl", read_with<read_stl>, false},
-    Format{".glb", read_gltf_file, false},     Format{".gltf", read_gltf_file, false},
+constexpr std::array mesh_readers{
+    MeshReader{".ply", read_with<read_ply>, true}, MeshReader{".obj", read_with<read_obj>, true},
+    MeshReader{".off", read_with<read_off>, true}, MeshReader{".stl", read_with<read_stl>, false},
+    MeshReader{".glb", read_gltf_file, false},     MeshReader{".gltf", read_gltf_file, false},
 };
-
-const Format* find_format(const std::filesystem::path& path) {
-  const auto found = std::ranges::find(formats, extension(path), &Format::extension);
-  return found == formats.end() ? nullptr : &*found;
-}
 
 }  // namespace
 
-std::string mesh_extensions() {
-  std::string result;
-  for (const Format& format : formats) {
-    if (!result.empty()) result += ' ';
-    result += format.extension;
-  }
-  return result;
+std::string mesh_extensions() { return extensions_of(mesh_readers); }
+
+bool is_mesh_file(const std::filesystem::path& path) {
+  return find_format(mesh_readers, path) != nullptr;
 }
 
-bool is_mesh_file(const std::filesystem::path& path) { return find_format(path) != nullptr; }
-
 bool keeps_coordinates(const std::filesystem::path& path) {
-  const Format* const format = find_format(path);
+  const MeshReader* const format = find_format(mesh_readers, path);
   return format != nullptr && format->keeps_coordinates;
 }
 
 std::vector<LabelledMesh> read_meshes(const std::filesystem::path& path) {
-  const Format* const format = find_format(path);
-  if (format == nullptr) throw UnknownFormat(path, mesh_extensions());
-  return format->read(path);
+  return format_of(mesh_readers, path).read(path);
 }
 
 Mesh read_mesh(const std::filesystem::path& path) {

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "io/bytes/file.h"
+#include "io/bytes/format_table.h"
 #include "io/bytes/text.h"
 #include "io/planar/polylines_geojson.h"
 #include "io/planar/polylines_text.h"
@@ -17,17 +18,15 @@ namespace loft::io {
 
 namespace {
 
-using Reader = std::vector<Polyline> (*)(std::string_view content, std::string_view name);
-
-struct Format {
+struct PolylineReader {
   std::string_view extension;
-  Reader read;
+  std::vector<Polyline> (*read)(std::string_view content, std::string_view name);
 };
 
-constexpr std::array formats{
-    Format{".geojson", read_polylines_geojson},
-    Format{".json", read_polylines_geojson},
-    Format{".txt", read_polylines_text},
+constexpr std::array polyline_readers{
+    PolylineReader{".geojson", read_polylines_geojson},
+    PolylineReader{".json", read_polylines_geojson},
+    PolylineReader{".txt", read_polylines_text},
 };
 
 std::vector<Polyline> read_standard_input() {
@@ -42,20 +41,11 @@ std::vector<Polyline> read_standard_input() {
 
 }  // namespace
 
-std::string polyline_extensions() {
-  std::string result;
-  for (const Format& format : formats) {
-    if (!result.empty()) result += ' ';
-    result += format.extension;
-  }
-  return result;
-}
+std::string polyline_extensions() { return extensions_of(polyline_readers); }
 
 std::vector<Polyline> read_polylines(const std::filesystem::path& path) {
   if (path == "-") return read_standard_input();
-  const auto format = std::ranges::find(formats, extension(path), &Format::extension);
-  if (format == formats.end()) throw UnknownFormat(path, polyline_extensions());
-  return format->read(read_file(path), path.string());
+  return format_of(polyline_readers, path).read(read_file(path), path.string());
 }
 
 std::vector<Polyline> read_polylines(std::span<const std::filesystem::path> paths) {

@@ -7,9 +7,10 @@
 
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
-#include "io/stacks/cli_writer.h"
-#include "io/stacks/contour_writer.h"
-#include "io/stacks/csv_writer.h"
+#include "io/bytes/format_table.h"
+#include "io/contours/cli_writer.h"
+#include "io/contours/contour_writer.h"
+#include "io/contours/csv_writer.h"
 #include "io/stacks/slices_json.h"
 
 namespace loft::io {
@@ -23,24 +24,19 @@ Losses write_ndjson(std::ostream& out, const Stack& stack) {
   return {};
 }
 
-struct Format {
+struct StackWriter {
   std::string_view extension;
   Losses (*write)(std::ostream&, const Stack&);
 };
-constexpr std::array formats{Format{".ndjson", write_ndjson}, Format{".jsonl", write_ndjson},
-                             Format{".csv", write_csv}, Format{".cli", write_cli},
-                             Format{".contour", write_contour}};
-
-const Format& format_of(const std::filesystem::path& path) {
-  const auto found = std::ranges::find(formats, extension(path), &Format::extension);
-  if (found == formats.end()) throw UnknownFormat(path, stack_writer_extensions());
-  return *found;
-}
+constexpr std::array stack_writers{StackWriter{".ndjson", write_ndjson},
+                                   StackWriter{".jsonl", write_ndjson},
+                                   StackWriter{".csv", write_csv}, StackWriter{".cli", write_cli},
+                                   StackWriter{".contour", write_contour}};
 
 }  // namespace
 
 std::vector<std::string> write_stack(const std::filesystem::path& path, const Stack& stack) {
-  const Format& format = format_of(path);
+  const StackWriter& format = format_of(stack_writers, path);
   AtomicFile file(path);
   Losses losses = format.write(file.stream(), stack);
   file.commit();
@@ -48,17 +44,10 @@ std::vector<std::string> write_stack(const std::filesystem::path& path, const St
 }
 
 void check_stack_writable(const std::filesystem::path& path) {
-  static_cast<void>(format_of(path));
+  static_cast<void>(format_of(stack_writers, path));
   const AtomicFile file(path);
 }
 
-std::string stack_writer_extensions() {
-  std::string result;
-  for (const Format& format : formats) {
-    if (!result.empty()) result += ' ';
-    result += format.extension;
-  }
-  return result;
-}
+std::string stack_writer_extensions() { return extensions_of(stack_writers); }
 
 }  // namespace loft::io

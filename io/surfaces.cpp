@@ -8,6 +8,7 @@
 
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
+#include "io/bytes/format_table.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/obj.h"
 #include "io/meshes/off.h"
@@ -18,47 +19,29 @@ namespace loft::io {
 
 namespace {
 
-using Writer = void (*)(std::ostream&, std::span<const Part>, const WriteOptions&);
-
-struct Format {
+struct SurfaceWriter {
   std::string_view extension;
-  Writer write;
+  void (*write)(std::ostream&, std::span<const Part>, const WriteOptions&);
 };
 
-constexpr std::array formats{
-    Format{".glb", write_glb}, Format{".gltf", write_gltf}, Format{".ply", write_ply},
-    Format{".obj", write_obj}, Format{".stl", write_stl},   Format{".off", write_off},
+constexpr std::array surface_writers{
+    SurfaceWriter{".glb", write_glb}, SurfaceWriter{".gltf", write_gltf},
+    SurfaceWriter{".ply", write_ply}, SurfaceWriter{".obj", write_obj},
+    SurfaceWriter{".stl", write_stl}, SurfaceWriter{".off", write_off},
 };
-
-const Format& find_format(const std::filesystem::path& path, std::string_view extension) {
-  const auto found = std::ranges::find(formats, extension, &Format::extension);
-  if (found == formats.end()) throw UnknownFormat(path, surface_extensions());
-  return *found;
-}
-
-const Format& find_format(const std::filesystem::path& path) {
-  return find_format(path, extension(path));
-}
 
 }  // namespace
 
-std::string surface_extensions() {
-  std::string result;
-  for (const Format& format : formats) {
-    if (!result.empty()) result += ' ';
-    result += format.extension;
-  }
-  return result;
-}
+std::string surface_extensions() { return extensions_of(surface_writers); }
 
 void check_writable(const std::filesystem::path& path) {
-  static_cast<void>(find_format(path));
+  static_cast<void>(format_of(surface_writers, path));
   const AtomicFile tried(path);
 }
 
 void write(const std::filesystem::path& path, std::span<const Part> parts,
            const WriteOptions& options) {
-  const Format& format = find_format(path);
+  const SurfaceWriter& format = format_of(surface_writers, path);
   AtomicFile file(path);
   format.write(file.stream(), parts, options);
   file.commit();
@@ -66,7 +49,7 @@ void write(const std::filesystem::path& path, std::span<const Part> parts,
 
 void write(std::ostream& out, std::string_view extension, std::span<const Part> parts,
            const WriteOptions& options) {
-  find_format("surface" + std::string(extension), extension).write(out, parts, options);
+  format_of(surface_writers, "surface" + std::string(extension)).write(out, parts, options);
 }
 
 }  // namespace loft::io

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -58,6 +59,9 @@ inline constexpr Box3 no_box{
     result.high[axis] = std::max(std::max(a[axis], b[axis]), c[axis]);
   }
   return result;
+}
+[[nodiscard]] inline Box3 box_around(const std::array<Vec3, 3>& points) {
+  return box_around(points[0], points[1], points[2]);
 }
 
 /// The axis along which a box is longest; of equals the first.

@@ -34,11 +34,6 @@ bool is_admitted(const Vec3& p) {
   return std::ranges::all_of(p, [](double x) { return admitted::mesh.admits(x); });
 }
 
-Corners corners(const Mesh& mesh, std::uint32_t face) {
-  const auto [a, b, c] = mesh.faces[face];
-  return {mesh.points[a], mesh.points[b], mesh.points[c]};
-}
-
 std::vector<std::uint32_t> faces_of(std::span<const EdgeSide> sides) {
   std::vector<std::uint32_t> result;
   for (const EdgeSide& side : sides) result.push_back(side.face);

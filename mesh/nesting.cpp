@@ -16,11 +16,6 @@ namespace {
 
 constexpr std::uint32_t none = 0xffff'ffff;
 
-Corners corners(const Mesh& mesh, std::uint32_t face) {
-  const auto [a, b, c] = mesh.faces[face];
-  return {mesh.points[a], mesh.points[b], mesh.points[c]};
-}
-
 /// The shells without volume and depth, and the shell of each face.
 struct Membership {
   std::vector<Shell> shells;

@@ -23,6 +23,12 @@ namespace loft {
 /// The corners of a triangle.
 using Corners = std::array<Vec3, 3>;
 
+/// Of a face whose indices are in range.
+[[nodiscard]] inline Corners corners(const Mesh& mesh, std::uint32_t face) {
+  const auto [a, b, c] = mesh.faces[face];
+  return {mesh.points[a], mesh.points[b], mesh.points[c]};
+}
+
 /// Whether two closed triangles have any point in common other than the corners at the same place
 /// in both and the edge between two such corners. Two triangles with three common corners do meet.
 /// Precondition: neither is degenerate.

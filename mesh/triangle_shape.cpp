@@ -13,17 +13,17 @@ namespace loft {
 namespace {
 
 /// Side lengths, squared, in order; and twice the area.
-struct Sides {
+struct SideLengths {
   std::array<double, 3> squared;
   double area;
 };
 
 /// From corners in a fixed order.
-Sides sides(Corners t) {
+SideLengths side_lengths(Corners t) {
   std::ranges::sort(t);
-  Sides result{{squared_length(minus(t[1], t[0])), squared_length(minus(t[2], t[1])),
-                squared_length(minus(t[0], t[2]))},
-               length(cross(minus(t[1], t[0]), minus(t[2], t[0])))};
+  SideLengths result{{squared_length(minus(t[1], t[0])), squared_length(minus(t[2], t[1])),
+                      squared_length(minus(t[0], t[2]))},
+                     length(cross(minus(t[1], t[0]), minus(t[2], t[0])))};
   std::ranges::sort(result.squared);
   return result;
 }
@@ -31,12 +31,12 @@ Sides sides(Corners t) {
 }  // namespace
 
 double smallest_sine(const Corners& triangle) {
-  const auto [squared, area] = sides(triangle);
+  const auto [squared, area] = side_lengths(triangle);
   return area > 0 ? area / std::sqrt(squared[1] * squared[2]) : 0;  // between the longer sides
 }
 
 double aspect(const Corners& triangle) {
-  const auto [squared, area] = sides(triangle);
+  const auto [squared, area] = side_lengths(triangle);
   if (area == 0) return std::numeric_limits<double>::infinity();
   return squared[2] / area * std::sqrt(0.75);
 }

@@ -29,4 +29,12 @@ namespace loft {
 
 [[nodiscard]] inline double length(const Vec3& a) { return std::sqrt(squared_length(a)); }
 
+/// Scales it to length 1; false, and nothing is done, where its length is 0 or not finite.
+inline bool make_unit(Vec3& v) {
+  const double size = length(v);
+  if (!(size > 0) || !std::isfinite(size)) return false;
+  for (double& x : v) x /= size;
+  return true;
+}
+
 }  // namespace loft

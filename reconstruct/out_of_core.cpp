@@ -125,9 +125,9 @@ class Regions {
 };
 
 /// The lines from heights to faces, group by group.
-class Work {
+class GroupByGroup {
  public:
-  Work(const SliceSource& source, const Options& options, SurfaceSink& sink)
+  GroupByGroup(const SliceSource& source, const Options& options, SurfaceSink& sink)
       : source_(source),
         options_(options),
         sink_(sink),
@@ -445,7 +445,7 @@ OutOfCoreReport reconstruct_out_of_core(const SliceSource& source, const Options
   if (options.simplify || !options.links.empty())
     throw std::invalid_argument("simplify and links need the whole stack");
   require_usable(options);
-  return Work(source, options, sink).run(progress);
+  return GroupByGroup(source, options, sink).run(progress);
 }
 
 }  // namespace loft

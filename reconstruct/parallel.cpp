@@ -17,9 +17,9 @@ namespace loft {
 namespace {
 
 /// Hands out indices and gathers exceptions.
-class Work {
+class SharedWork {
  public:
-  Work(std::size_t count, const std::function<void(std::size_t, unsigned)>& body)
+  SharedWork(std::size_t count, const std::function<void(std::size_t, unsigned)>& body)
       : count_(count), body_(body) {}
 
   void run(unsigned worker) {
@@ -67,7 +67,7 @@ void for_each_index(std::size_t count, unsigned threads,
     for (std::size_t i = 0; i < count; ++i) body(i, 0);
     return;
   }
-  Work work(count, body);
+  SharedWork work(count, body);
   // More threads than processors are refused, unless it is said so.
   std::optional<tbb::global_control> allowed;
   if (workers > tbb::this_task_arena::max_concurrency())

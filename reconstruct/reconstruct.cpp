@@ -31,7 +31,7 @@ namespace loft {
 
 namespace {
 
-std::vector<Defect> find_unusable(std::span<const Slice> slices) {
+std::vector<Defect> find_all_unusable(std::span<const Slice> slices) {
   std::vector<Defect> found;
   for (std::uint32_t s = 0; s < slices.size(); ++s)
     std::ranges::move(find_unusable(slices[s], s), std::back_inserter(found));
@@ -279,7 +279,7 @@ Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean
 Reconstructed reconstruct(std::span<const Slice> slices, const Options& options,
                           const Progress& progress) {
   require_usable(options);
-  if (auto fatal = find_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  if (auto fatal = find_all_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
   OneLabel one_label(options.label);
   for (const Slice& slice : slices) one_label.add(slice);
   const auto clean_height = [&](const Height& height, std::vector<Defect>& repairs,

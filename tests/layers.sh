@@ -30,9 +30,11 @@ reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction,world}        
 io-values     io/{unit,version}              reconstruct
 bytes         io/bytes/*                     io-values
 read-options  io/stacks/{read_options,stack_format}  io-values
+contours      io/contours/*                  bytes read-options
 volumes       io/volumes/*                   bytes read-options
 images        io/images/*                    volumes
-stacks        io/stacks/*                    images
+dicom         io/dicom/*                     volumes
+stacks        io/stacks/*                    contours images dicom
 meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes

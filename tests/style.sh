@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Checks the sources against .clang-format and .clang-tidy.
 #   sh tests/style.sh format         to repair: git ls-files '*.h' '*.cpp' | xargs clang-format -i
-#   sh tests/style.sh tidy BUILD     BUILD is a build folder with compile_commands.json
+#   sh tests/style.sh tidy BUILD     BUILD is a folder for what it needs
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -20,8 +20,11 @@ case ${1:-} in
       xargs clang-format --dry-run -Werror
     ;;
   tidy)
+    # Each file by itself: it must include what it needs.
+    cmake -S . -B "$2/tidy" -G Ninja -DLOFT_UNITY=OFF -DLOFT_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > "$2/tidy.txt" ||
+      { cat "$2/tidy.txt"; exit 1; }
     ours '*.cpp' cdt mesh reconstruct io app samples |
-      xargs -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "$2"
+      xargs -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "$2/tidy"
     ;;
   *)
     echo "usage: sh tests/style.sh format | tidy BUILD" >&2

@@ -11,14 +11,12 @@ namespace loft::app {
 
 namespace {
 
-using std::chrono::milliseconds;
-
-constexpr milliseconds first_pause{50};
-constexpr milliseconds longest_pause{1000};
+constexpr std::chrono::milliseconds first_pause{50};
+constexpr std::chrono::milliseconds longest_pause{1000};
 
 }  // namespace
 
-bool Intake::hand_over(const Line& line, milliseconds patience) {
+bool Intake::hand_over(const Line& line, std::chrono::milliseconds patience) {
   if (!has_none_held(patience)) return false;
   // Its place goes along, in case it comes back; the edit comes with the answer.
   const Line without_edit{{}, line.place, line.position};
@@ -26,7 +24,7 @@ bool Intake::hand_over(const Line& line, milliseconds patience) {
       line, [this, without_edit](const Answer& answer) { note(without_edit, answer); }, patience);
 }
 
-bool Intake::is_idle(milliseconds patience) {
+bool Intake::is_idle(std::chrono::milliseconds patience) {
   if (!has_none_held(patience)) return false;
   std::unique_lock lock(mutex_);
   return answered_.wait_for(lock, patience, [&] { return unanswered_ == 0; }) && held_.empty();
@@ -37,7 +35,7 @@ std::size_t Intake::held_count() const {
   return held_.size();
 }
 
-bool Intake::submit(const Line& line, Capture::Done done, milliseconds patience) {
+bool Intake::submit(const Line& line, Capture::Done done, std::chrono::milliseconds patience) {
   {
     const std::lock_guard lock(mutex_);
     ++unanswered_;
@@ -50,7 +48,7 @@ bool Intake::submit(const Line& line, Capture::Done done, milliseconds patience)
 }
 
 /// If any is held, tries the first again when it is time for that.
-bool Intake::has_none_held(milliseconds patience) {
+bool Intake::has_none_held(std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
   if (!is_held_ && held_.empty()) return true;
   // Those behind it come back first.

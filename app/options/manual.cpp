@@ -26,7 +26,7 @@ std::string escaped(std::string_view text) {
 }
 
 /// In the argument of a macro.
-std::string quoted(const std::string& text) {
+std::string roff_quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : escaped(text)) result += c == '"' ? std::string("\\(dq") : std::string(1, c);
   return result + '"';
@@ -74,7 +74,7 @@ bool is_worth_a_section(const CommandNote& command) {
 
 std::string manual(const CommandNote& program, std::string_view version) {
   std::ostringstream out;
-  out << ".\\\" SPDX-License-Identifier: MIT\n.TH LOFT 1 \"\" " << quoted(std::string(version))
+  out << ".\\\" SPDX-License-Identifier: MIT\n.TH LOFT 1 \"\" " << roff_quoted(std::string(version))
       << " \"User Commands\"\n.SH NAME\nloft \\- " << escaped(program.text) << "\n.SH SYNOPSIS\n";
   for_each_command(program, [&](const CommandNote& command) {
     if (is_worth_a_section(command)) out << synopsis(command);
@@ -82,7 +82,7 @@ std::string manual(const CommandNote& program, std::string_view version) {
   out << ".SH COMMANDS\n";
   for_each_command(program, [&](const CommandNote& command) {
     if (!is_worth_a_section(command)) return;
-    out << ".SS " << quoted("loft " + command.name) << '\n' << escaped(command.text) << ".\n";
+    out << ".SS " << roff_quoted("loft " + command.name) << '\n' << escaped(command.text) << ".\n";
     for (const OptionNote& option : command.options) out << lines_of(option);
     if (!command.footer.empty()) out << example(command.footer);
   });

@@ -5,11 +5,11 @@
 #include <string>
 #include <tuple>
 
+#include "io/bytes/text.h"
+
 namespace loft::io {
 
 namespace {
-
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Takes the digits in front of a text, without leading zeros.
 std::string_view take_number(std::string_view& text) {

@@ -25,6 +25,8 @@ namespace loft::io {
   return result;
 }
 
+[[nodiscard]] constexpr bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
 /// A word of a file as messages show it: in quotes, on one line, not too much of it.
 [[nodiscard]] inline std::string in_quotes(std::string_view word) {
   constexpr std::size_t enough = 40;

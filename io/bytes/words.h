@@ -8,7 +8,7 @@
 
 namespace loft::io {
 
-/// The text without blanks, tabs and carriage returns at its ends.
+/// The text without blanks, tabs and ends of lines at its ends.
 [[nodiscard]] std::string_view without_blanks(std::string_view text);
 
 /// What blanks and tabs part.

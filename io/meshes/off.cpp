@@ -14,7 +14,7 @@ namespace loft::io {
 
 namespace {
 
-void append_vertices(std::string& text, const Mesh& mesh) {
+void append_off_vertices(std::string& text, const Mesh& mesh) {
   for (const Vec3& point : mesh.points) {
     append_number(text, point[0]);
     text += ' ';
@@ -25,7 +25,7 @@ void append_vertices(std::string& text, const Mesh& mesh) {
   }
 }
 
-void append_faces(std::string& text, const Mesh& mesh, std::size_t first_vertex) {
+void append_off_faces(std::string& text, const Mesh& mesh, std::size_t first_vertex) {
   for (const auto& face : mesh.faces) {
     text += '3';
     for (const std::uint32_t corner : face) {
@@ -45,8 +45,8 @@ void write_off(std::ostream& out, std::span<const Part> parts, const WriteOption
   std::size_t face_count = 0;
   for (const Part& part : parts) {
     const Mesh mesh = to_mesh(*part.surface);
-    append_vertices(vertices, mesh);
-    append_faces(faces, mesh, vertex_count);
+    append_off_vertices(vertices, mesh);
+    append_off_faces(faces, mesh, vertex_count);
     vertex_count += mesh.points.size();
     face_count += mesh.faces.size();
   }

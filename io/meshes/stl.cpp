@@ -92,7 +92,7 @@ Mesh read_binary(const std::string& content, std::size_t count) {
   return mesh;
 }
 
-Vec3 read_vertex(TextReader& text) {
+Vec3 read_stl_vertex(TextReader& text) {
   if (text.any_word("'vertex'") != "vertex") text.fail("expected 'vertex'");
   const double x = text.any_number("x");
   const double y = text.any_number("y");
@@ -103,7 +103,7 @@ Vec3 read_vertex(TextReader& text) {
 void read_facet(TextReader& text, Mesh& mesh) {
   while (text.any_word("'outer loop'") != "loop") continue;
   const auto first = static_cast<std::uint32_t>(mesh.points.size());
-  for (int corner = 0; corner < 3; ++corner) mesh.points.push_back(read_vertex(text));
+  for (int corner = 0; corner < 3; ++corner) mesh.points.push_back(read_stl_vertex(text));
   if (text.any_word("'endloop'") != "endloop")
     text.fail("expected 'endloop'; facets are triangles");
   if (text.any_word("'endfacet'") != "endfacet") text.fail("expected 'endfacet'");

@@ -15,6 +15,7 @@
 #include "io/bytes/near_word.h"
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
+#include "io/bytes/words.h"
 #include "reconstruct/link/link_orders.h"
 #include "reconstruct/nearest_height.h"
 
@@ -149,10 +150,6 @@ class OrderReader {
   std::vector<std::string> problems_;
 };
 
-bool is_blank(std::string_view line) {
-  return line.find_first_not_of(" \t\r") == std::string_view::npos;
-}
-
 }  // namespace
 
 std::vector<LinkOrder> read_links_json(std::istream& in, std::string_view name,
@@ -162,7 +159,7 @@ std::vector<LinkOrder> read_links_json(std::istream& in, std::string_view name,
   std::string line;
   for (std::size_t number = 1; std::getline(in, line); ++number) {
     const std::string_view text = number == 1 ? without_mark(line) : std::string_view(line);
-    if (is_blank(text)) continue;
+    if (without_blanks(text).empty()) continue;
     const std::string place = std::string(name) + ':' + std::to_string(number);
     OrderReader reader(text, slices);
     if (auto order = reader.read()) {

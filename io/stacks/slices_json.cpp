@@ -11,6 +11,7 @@
 #include "io/bytes/json_reader.h"
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
+#include "io/bytes/words.h"
 #include "io/stacks/edit.h"
 #include "io/stacks/slice_line.h"
 #include "io/stacks/slice_lines.h"
@@ -28,10 +29,6 @@ struct NumberedLine {
   std::size_t number = 0;  // in the file, from 1
   LinePlace place;
 };
-
-bool is_blank(std::string_view line) {
-  return line.find_first_not_of(" \t\r") == std::string_view::npos;
-}
 
 /// `stack.ndjson:3: slice 2 (z = 2.5) `
 std::string place(std::string_view name, std::size_t line, std::size_t slice,
@@ -67,7 +64,7 @@ class Batches {
       line.place = {offset_, line.text.size()};
       offset_ += line.text.size() + 1;
       if (number_ == 1) line.text = without_mark(line.text);
-      if (is_blank(line.text)) continue;
+      if (without_blanks(line.text).empty()) continue;
       size += line.text.size();
       ++count;
     }

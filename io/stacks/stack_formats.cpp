@@ -3,21 +3,21 @@
 #include <array>
 
 #include "io/bytes/words.h"
+#include "io/contours/cli.h"
+#include "io/contours/csl.h"
+#include "io/contours/csv.h"
+#include "io/contours/imod.h"
+#include "io/contours/jser.h"
+#include "io/contours/nuages.h"
+#include "io/contours/terrain.h"
+#include "io/dicom/dicom.h"
 #include "io/images/png.h"
 #include "io/images/tiff.h"
-#include "io/stacks/cli.h"
-#include "io/stacks/csl.h"
-#include "io/stacks/csv.h"
-#include "io/stacks/dicom.h"
-#include "io/stacks/imod.h"
-#include "io/stacks/jser.h"
-#include "io/stacks/meta_image.h"
-#include "io/stacks/nifti.h"
-#include "io/stacks/nrrd.h"
-#include "io/stacks/nuages.h"
 #include "io/stacks/slices_json.h"
 #include "io/stacks/stack_format.h"
-#include "io/stacks/terrain.h"
+#include "io/volumes/meta_image.h"
+#include "io/volumes/nifti.h"
+#include "io/volumes/nrrd.h"
 
 namespace loft::io {
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "mesh/admitted.h"
+#include "mesh/vec3.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -17,12 +18,6 @@ using Matrix = std::array<std::array<double, 4>, 3>;
 
 Vec3 column(const Matrix& matrix, std::size_t axis) {
   return {matrix[0][axis], matrix[1][axis], matrix[2][axis]};
-}
-
-double dot(const Vec3& a, const Vec3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-Vec3 cross(const Vec3& a, const Vec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
 double length(const Vec3& a) { return std::hypot(a[0], a[1], a[2]); }

@@ -29,6 +29,15 @@ struct RawPixels {
   double intercept = 0;
 };
 
+/// What a format calls a type.
+struct PixelTypeName {
+  std::string_view name;
+  PixelType type;
+};
+
+/// Headers in text that are longer are none. Bytes.
+inline constexpr std::size_t longest_header = std::size_t{16} << 20U;
+
 /// The bytes that pixels of the volume's sizes take; none if 2^63 are not enough.
 [[nodiscard]] std::optional<std::uint64_t> byte_count(const Volume& volume, PixelType type);
 

@@ -18,16 +18,12 @@ namespace {
 
 using cdt::Point;
 
-constexpr std::uint32_t none = Origin::none;
-
 /// An end leans no less than that share of what is suggested, or not at all.
 constexpr double least_share = 0.25;
 
-Box3 box(const Corners& corners) { return box_around(corners[0], corners[1], corners[2]); }
-
 Box3 box(std::span<const Corners> tiles) {
-  Box3 whole = box(tiles.front());
-  for (const Corners& tile : tiles) whole = joined(whole, box(tile));
+  Box3 whole = box_around(tiles.front());
+  for (const Corners& tile : tiles) whole = joined(whole, box_around(tile));
   return whole;
 }
 
@@ -46,7 +42,7 @@ struct Leaning {
 
   [[nodiscard]] bool meets(const Corners& tile) const {
     bool is_found = false;
-    tree.for_each_meeting(box(tile), [&](std::uint32_t i) {
+    tree.for_each_meeting(box_around(tile), [&](std::uint32_t i) {
       is_found = is_found || triangles_meet(tile, corners[i]);
     });
     return is_found;
@@ -86,7 +82,7 @@ class Ends {
  private:
   /// Which of the pieces lean.
   void collect(std::span<const EndLean> leans) {
-    end_of_.assign(pieces_.pieces.size(), none);
+    end_of_.assign(pieces_.pieces.size(), Origin::none);
     std::array<std::vector<const EndLean*>, 2> of_loop;  // by level
     for (const EndLean& lean : leans) {
       auto& of_level = of_loop[static_cast<std::size_t>(lean.level)];
@@ -109,7 +105,7 @@ class Ends {
   void collect_tiles() {
     std::vector<bool> is_known(tiles_.inner.size());
     for (std::size_t t = 0; t < tiles_.tiles.size(); ++t) {
-      if (end_of_[pieces_.of_tile[t]] == none) continue;
+      if (end_of_[pieces_.of_tile[t]] == Origin::none) continue;
       Leaning& end = ends_[end_of_[pieces_.of_tile[t]]];
       end.nodes.push_back(tiles_.tiles[t].nodes);
       for (const std::uint32_t node : tiles_.tiles[t].nodes) {
@@ -140,7 +136,7 @@ class Ends {
     std::vector<Box3> boxes;
     for (const auto& nodes : end.nodes) {
       end.corners.push_back(corners(nodes));
-      boxes.push_back(box(end.corners.back()));
+      boxes.push_back(box_around(end.corners.back()));
     }
     end.tree = BoxTree(boxes);
   }
@@ -164,9 +160,10 @@ class Ends {
     const BoxTree tree(boxes);
     tree.for_each_pair([&](std::uint32_t i, std::uint32_t j) { pairs_.emplace_back(i, j); });
     for (std::size_t t = 0; t < tiles_.tiles.size(); ++t) {
-      if (end_of_[pieces_.of_tile[t]] != none) continue;
+      if (end_of_[pieces_.of_tile[t]] != Origin::none) continue;
       const Corners here = corners(tiles_.tiles[t].nodes);
-      tree.for_each_meeting(box(here), [&](std::uint32_t i) { ends_[i].near.push_back(here); });
+      tree.for_each_meeting(box_around(here),
+                            [&](std::uint32_t i) { ends_[i].near.push_back(here); });
     }
   }
 

@@ -20,8 +20,6 @@ namespace loft {
 
 namespace {
 
-constexpr std::uint32_t none = Origin::none;
-
 std::string with_place(const LinkOrder& order, const std::string& problem) {
   return order.place.empty() ? problem : order.place + ": " + problem;
 }
@@ -105,7 +103,7 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
   std::vector<std::vector<SlabOrder>> of_slabs(regions.empty() ? 0 : regions.size() - 1);
   if (orders.empty()) return of_slabs;
   struct Found {
-    std::uint32_t region = none;
+    std::uint32_t region = Origin::none;
     std::vector<std::uint32_t> loops;
     std::optional<std::uint32_t> line;
   };
@@ -136,8 +134,8 @@ std::vector<std::vector<SlabOrder>> orders_of_slabs(std::span<const Region> regi
   for (std::uint32_t i = 0; i < orders.size(); ++i) {
     const Found& from = found[orders[i].from];
     const Found& to = found[orders[i].to];
-    if (from.region == none || to.region == none) {
-      const ContourId& missing = from.region == none ? orders[i].from : orders[i].to;
+    if (from.region == Origin::none || to.region == Origin::none) {
+      const ContourId& missing = from.region == Origin::none ? orders[i].from : orders[i].to;
       refusals.push_back({i, name(missing) + " bounds nothing after cleaning"});
     } else if (from.region + 1 == to.region) {
       of_slabs[from.region].push_back(
@@ -439,7 +437,7 @@ class Ordering {
       const auto& own = pieces[i].footprint(level).loops;
       if (std::ranges::find(own, loops.front()) != own.end()) return i;
     }
-    return none;
+    return Origin::none;
   }
 
   /// What orders say about ends: cavities to link, and what must not be linked later on.

@@ -15,8 +15,6 @@ using cdt::EdgeId;
 using cdt::TriangleId;
 using cdt::Triangulation;
 
-constexpr std::uint32_t none = Origin::none;
-
 class PartFinder {
  public:
   explicit PartFinder(const Slab& slab) : slab_(slab), mesh_(slab.overlay()) {}
@@ -28,7 +26,7 @@ class PartFinder {
     graph.upper_count = label(Level::upper, graph.upper_part);
     std::vector<std::pair<PartGraph::Overlap, double>> shared;  // of triangles, with their areas
     for (std::uint32_t t = 0; t < label_.size(); ++t)
-      if (lower[t] != none && label_[t] != none)
+      if (lower[t] != Origin::none && label_[t] != Origin::none)
         shared.push_back({{lower[t], label_[t]}, area(TriangleId(t))});
     std::ranges::sort(shared);
     for (const auto& [overlap, area] : shared) {
@@ -59,14 +57,14 @@ class PartFinder {
 
   /// Numbers the parts of a slice in label_, for each triangle; for each loop the part on its left.
   std::uint32_t label(Level level, std::vector<std::uint32_t>& part_of_loop) {
-    label_.assign(mesh_.triangle_bound(), none);
+    label_.assign(mesh_.triangle_bound(), Origin::none);
     std::uint32_t count = 0;
     for (std::uint32_t t = 0; t < mesh_.triangle_bound(); ++t) {
-      if (label_[t] != none || !mesh_.is_triangle(TriangleId(t))) continue;
+      if (label_[t] != Origin::none || !mesh_.is_triangle(TriangleId(t))) continue;
       if (is_inside(Triangulation::edge(TriangleId(t)), level)) fill(TriangleId(t), level, count++);
     }
     const Region& region = slab_.region(level);
-    part_of_loop.assign(region.loop_count(), none);
+    part_of_loop.assign(region.loop_count(), Origin::none);
     for (std::uint32_t i = 0; i < mesh_.edge_bound(); ++i) {
       const EdgeId e(i);
       if (!mesh_.is_triangle(Triangulation::triangle(e)) || !is_inside(e, level)) continue;
@@ -87,7 +85,7 @@ class PartFinder {
       for (unsigned corner = 0; corner < 3; ++corner) {
         const EdgeId e = Triangulation::edge(t, corner);
         const TriangleId beyond = Triangulation::triangle(mesh_.twin(e));
-        if (label_[beyond.index()] != none || slab_.is_contour(e, level)) continue;
+        if (label_[beyond.index()] != Origin::none || slab_.is_contour(e, level)) continue;
         label_[beyond.index()] = part;
         front.push_back(beyond);
       }
@@ -103,7 +101,7 @@ class PartFinder {
 /// have lost its inside to a vertex of the other slice.
 bool has_all_loops(const PartGraph& graph) {
   const auto has_all = [](const std::vector<std::uint32_t>& parts) {
-    return std::ranges::find(parts, none) == parts.end();
+    return std::ranges::find(parts, Origin::none) == parts.end();
   };
   return has_all(graph.lower_part) && has_all(graph.upper_part);
 }

@@ -14,8 +14,6 @@ namespace {
 
 using cdt::Point;
 
-constexpr std::uint32_t none = Origin::none;
-
 /// Area and first moments of what a loop encloses, signed, about an origin.
 struct Moments {
   double area = 0;
@@ -153,10 +151,11 @@ Pieces find_pieces(const Region& lower, const Region& upper, const TileSet& tile
     sets.unite(tile.nodes[0], tile.nodes[1]);
     sets.unite(tile.nodes[0], tile.nodes[2]);
   }
-  std::vector<std::uint32_t> piece_of(lower_count + upper.points.size() + tiles.inner.size(), none);
+  std::vector<std::uint32_t> piece_of(lower_count + upper.points.size() + tiles.inner.size(),
+                                      Origin::none);
   const auto piece = [&](std::uint32_t node) -> std::uint32_t {
     std::uint32_t& index = piece_of[sets.find(node)];
-    if (index == none) {
+    if (index == Origin::none) {
       index = static_cast<std::uint32_t>(found.pieces.size());
       found.pieces.emplace_back();
     }

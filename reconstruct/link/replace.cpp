@@ -13,14 +13,10 @@ namespace loft {
 
 namespace {
 
-constexpr std::uint32_t none = Origin::none;
-
 Corners corners(const Region& lower, const Region& upper, const TileSet& tiles, const Tile& tile) {
   const auto place = [&](std::uint32_t node) { return place_of(lower, upper, tiles.inner, node); };
   return {place(tile.nodes[0]), place(tile.nodes[1]), place(tile.nodes[2])};
 }
-
-Box3 box(const Corners& corners) { return box_around(corners[0], corners[1], corners[2]); }
 
 }  // namespace
 
@@ -49,7 +45,7 @@ class Replacing {
         replacements_(replacements),
         contour_count_(static_cast<std::uint32_t>(lower.points.size() + upper.points.size())),
         is_kept_(replacements.size(), true),
-        by_(pieces.pieces.size(), none) {}
+        by_(pieces.pieces.size(), Origin::none) {}
 
   bool run() {
     find_meetings();
@@ -83,7 +79,7 @@ class Replacing {
 
     [[nodiscard]] bool meets(const Corners& tile) const {
       bool is_found = false;
-      tree.for_each_meeting(loft::box(tile), [&](std::uint32_t i) {
+      tree.for_each_meeting(box_around(tile), [&](std::uint32_t i) {
         is_found = is_found || triangles_meet(tile, corners[i]);
       });
       return is_found;
@@ -95,7 +91,7 @@ class Replacing {
     std::vector<Box3> boxes;
     for (const Tile& tile : tiles.tiles) {
       places.push_back(corners(lower_, upper_, tiles, tile));
-      boxes.push_back(box(places.back()));
+      boxes.push_back(box_around(places.back()));
     }
     const Box3 whole = std::accumulate(boxes.begin(), boxes.end(), boxes.front(), joined);
     return {std::move(places), whole, BoxTree(boxes)};
@@ -119,7 +115,7 @@ class Replacing {
     for (std::size_t t = 0; t < tiles_.tiles.size(); ++t) {
       const Corners here = corners(lower_, upper_, tiles_, tiles_.tiles[t]);
       const std::uint32_t piece = pieces_.of_tile[t];
-      tree.for_each_meeting(box(here), [&](std::uint32_t r) {
+      tree.for_each_meeting(box_around(here), [&](std::uint32_t r) {
         if (!is_replaced(r, piece) && placed[r].meets(here)) meetings_.push_back({r, piece, true});
       });
     }
@@ -130,11 +126,11 @@ class Replacing {
   /// Of two that want the same piece, and of two that meet, the second goes; of one that meets a
   /// piece that stays, that one. Pieces of those dropped stay, after all.
   bool drop_one_that_meets() {
-    std::ranges::fill(by_, none);
+    std::ranges::fill(by_, Origin::none);
     for (std::uint32_t r = 0; r < replacements_.size(); ++r) {
       if (!is_kept_[r]) continue;
       for (const std::uint32_t piece : replacements_[r].replaced) {
-        if (by_[piece] != none) {
+        if (by_[piece] != Origin::none) {
           is_kept_[r] = false;
           return true;
         }
@@ -143,7 +139,8 @@ class Replacing {
     }
     for (const Meeting& meeting : meetings_) {
       if (!is_kept_[meeting.replacement]) continue;
-      if (meeting.is_piece ? by_[meeting.other] != none : !is_kept_[meeting.other]) continue;
+      if (meeting.is_piece ? by_[meeting.other] != Origin::none : !is_kept_[meeting.other])
+        continue;
       is_kept_[meeting.is_piece ? meeting.replacement : meeting.other] = false;
       return true;
     }
@@ -154,7 +151,7 @@ class Replacing {
     std::vector<Tile> kept;
     std::vector<std::uint32_t> of_kept;
     for (std::size_t t = 0; t < tiles_.tiles.size(); ++t) {
-      if (by_[pieces_.of_tile[t]] != none) continue;
+      if (by_[pieces_.of_tile[t]] != Origin::none) continue;
       kept.push_back(tiles_.tiles[t]);
       of_kept.push_back(pieces_.of_tile[t]);
     }
@@ -175,11 +172,11 @@ class Replacing {
   }
 
   void drop_replaced_pieces() {
-    by_.resize(pieces_.pieces.size(), none);
+    by_.resize(pieces_.pieces.size(), Origin::none);
     std::vector<Piece> left;
-    std::vector<std::uint32_t> place(by_.size(), none);
+    std::vector<std::uint32_t> place(by_.size(), Origin::none);
     for (std::uint32_t i = 0; i < by_.size(); ++i) {
-      if (by_[i] != none) continue;
+      if (by_[i] != Origin::none) continue;
       place[i] = static_cast<std::uint32_t>(left.size());
       left.push_back(std::move(pieces_.pieces[i]));
     }

@@ -48,8 +48,6 @@ constexpr double most_error_left = 0.7;
 /// less than torn_overlap, and do not grow: as a blade that turns.
 constexpr double most_unexplained = 0.1;
 
-double length(Point p) { return std::hypot(p.x, p.y); }
-
 /// The area that a footprint's outline sweeps when it is moved: the most by which that can change
 /// the area it has in common with another one, twice.
 double swept(const Region& region, const Footprint& footprint, Point way) {
@@ -130,7 +128,7 @@ double true_difference(const Region& lower, const Region& upper, const Piece& pi
 /// Whether a registration leaves no more than that of a difference, without going too far for it.
 bool brings_together(const Registered& made, double most_difference,
                      std::optional<double> max_shift) {
-  const double way = length(made.motion.shift);
+  const double way = std::hypot(made.motion.shift.x, made.motion.shift.y);
   return is_within(made.difference, most_difference) && is_within(way, max_shift.value_or(way));
 }
 
@@ -177,7 +175,8 @@ bool slide_over(const Region& lower, const Region& upper, TileSet& tiles, Pieces
     const Piece& piece = pieces.pieces[i];
     if (piece.lower.parts != 1 || piece.upper.parts != 1) continue;
     if (piece.reason != LinkReason::overlap) continue;
-    const double way = length(offset(piece));
+    const Point way_of_piece = offset(piece);
+    const double way = std::hypot(way_of_piece.x, way_of_piece.y);
     const double size = std::min(piece.lower.radius, piece.upper.radius);
     if (!is_within(way, least_slide * size) && is_within(way, max_shift.value_or(way)))
       movable.push_back(i);

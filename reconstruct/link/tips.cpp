@@ -16,8 +16,6 @@ namespace loft {
 
 namespace {
 
-constexpr std::uint32_t none = Origin::none;
-
 /// Around points of a region, in the plane.
 Box3 box(const Region& region, std::span<const std::uint32_t> vertices, double more) {
   cdt::Box box;
@@ -25,7 +23,7 @@ Box3 box(const Region& region, std::span<const std::uint32_t> vertices, double m
   return {{box.low.x - more, box.low.y - more, 0}, {box.high.x + more, box.high.y + more, 0}};
 }
 
-bool is_within(const Box3& inner, const Box3& outer) {
+bool is_inside(const Box3& inner, const Box3& outer) {
   return outer.low[0] <= inner.low[0] && inner.high[0] <= outer.high[0] &&
          outer.low[1] <= inner.low[1] && inner.high[1] <= outer.high[1];
 }
@@ -54,7 +52,7 @@ class TipFinder {
     std::vector<std::vector<std::uint32_t>> loops(is_lower ? graph_.lower_count
                                                            : graph_.upper_count);
     for (std::uint32_t i = 0; i < part_of.size(); ++i)
-      if (part_of[i] != none) loops[part_of[i]].push_back(i);
+      if (part_of[i] != Origin::none) loops[part_of[i]].push_back(i);
     for (const PartGraph::Overlap& overlap : graph_.overlaps)
       loops[is_lower ? overlap.lower : overlap.upper].clear();
     std::erase_if(loops, [](const auto& part) { return part.empty(); });
@@ -73,7 +71,7 @@ class TipFinder {
       const Box3 here = box(extract, extract.loop_vertices, contact_);
       std::vector<std::uint32_t> lines;
       tree.for_each_meeting(here, [&](std::uint32_t i) {
-        if (is_within(boxes[i], here)) lines.push_back(i);
+        if (is_inside(boxes[i], here)) lines.push_back(i);
       });
       std::ranges::sort(lines);
       if (!lines.empty()) add(level, part, std::move(loops), lines);
@@ -113,9 +111,9 @@ Rest rest_of(const Region& region, Level level, std::span<const Tip> tips) {
   rest.number.resize(region.loop_count());
   for (const Tip& tip : tips)
     if (tip.level == level)
-      for (const std::uint32_t i : tip.loops) rest.number[i] = none;
+      for (const std::uint32_t i : tip.loops) rest.number[i] = Origin::none;
   for (std::uint32_t i = 0; i < rest.number.size(); ++i) {
-    if (rest.number[i] == none) continue;
+    if (rest.number[i] == Origin::none) continue;
     rest.number[i] = static_cast<std::uint32_t>(rest.loops.size());
     rest.loops.push_back(i);
   }
@@ -126,7 +124,7 @@ std::vector<std::uint32_t> renumbered(const std::vector<std::uint32_t>& loops,
                                       const std::vector<std::uint32_t>& number) {
   std::vector<std::uint32_t> found;
   for (const std::uint32_t i : loops)
-    if (number[i] != none) found.push_back(number[i]);
+    if (number[i] != Origin::none) found.push_back(number[i]);
   return found;
 }
 

@@ -14,8 +14,6 @@ namespace loft {
 
 namespace {
 
-constexpr std::uint32_t none = Origin::none;
-
 bool is_same_loop(const Region& a, std::uint32_t i, const Region& b, std::uint32_t j) {
   const auto is_same_vertex = [&](std::uint32_t v, std::uint32_t w) {
     return a.points[v] == b.points[w] && is_same_in_slice(a.origins[v], b.origins[w]);
@@ -74,11 +72,11 @@ class Retiling {
 
   /// Where points and loops of the old slice are in the new one.
   void match_points() {
-    new_points_.assign(old_slice().points.size(), none);
-    new_loops_.assign(old_slice().loop_count(), none);
+    new_points_.assign(old_slice().points.size(), Origin::none);
+    new_loops_.assign(old_slice().loop_count(), Origin::none);
     for (std::uint32_t i = 0; i < change_.old_loops.size(); ++i) {
       const std::uint32_t old = change_.old_loops[i];
-      if (old == none) continue;
+      if (old == Origin::none) continue;
       new_loops_[old] = i;
       const auto from = old_slice().loop(old);
       const auto to = new_slice().loop(i);
@@ -92,9 +90,9 @@ class Retiling {
       for (const std::uint32_t v : region.loop(i)) box_.add(region.points[v]);
     };
     for (std::uint32_t i = 0; i < new_loops_.size(); ++i)
-      if (new_loops_[i] == none) add(old_slice(), i);
+      if (new_loops_[i] == Origin::none) add(old_slice(), i);
     for (std::uint32_t i = 0; i < change_.old_loops.size(); ++i)
-      if (change_.old_loops[i] == none) add(new_slice(), i);
+      if (change_.old_loops[i] == Origin::none) add(new_slice(), i);
     if (box_.is_empty()) return;
     const double contact = loft::contact(change_.lower, change_.upper);
     box_.low = {box_.low.x - contact, box_.low.y - contact};
@@ -143,7 +141,8 @@ class Retiling {
   }
 
   void note_old_pieces() {
-    old_piece_of_.assign(change_.old_lower.points.size() + change_.old_upper.points.size(), none);
+    old_piece_of_.assign(change_.old_lower.points.size() + change_.old_upper.points.size(),
+                         Origin::none);
     for (std::size_t t = 0; t < change_.old_tiles.tiles.size(); ++t)
       for (const std::uint32_t node : change_.old_tiles.tiles[t].nodes)
         if (node < old_piece_of_.size()) old_piece_of_[node] = change_.old_pieces.of_tile[t];
@@ -191,7 +190,7 @@ class Retiling {
       return lower_count() + (is_lower_changed() ? node : new_points_[node]);
     node -= static_cast<std::uint32_t>(change_.old_upper.points.size());
     std::uint32_t& inner = new_inner_[node];
-    if (inner == none) {
+    if (inner == Origin::none) {
       inner = static_cast<std::uint32_t>(result_.tiles.inner.size());
       result_.tiles.inner.push_back(change_.old_tiles.inner[node]);
     }
@@ -200,7 +199,7 @@ class Retiling {
 
   void keep_tiles() {
     const auto& tiles = change_.old_tiles.tiles;
-    new_inner_.assign(change_.old_tiles.inner.size(), none);
+    new_inner_.assign(change_.old_tiles.inner.size(), Origin::none);
     for (std::uint32_t t = 0; t < tiles.size(); ++t) {
       if (is_concerned_[change_.old_pieces.of_tile[t]]) {
         result_.gone.push_back(t);
@@ -225,12 +224,12 @@ class Retiling {
       if (!is_concerned_[i]) continue;
       for (const std::uint32_t loop : change_.old_pieces.pieces[i].footprint(level).loops) {
         const std::uint32_t now = level == change_.changed ? new_loops_[loop] : loop;
-        if (now != none) all.push_back(now);
+        if (now != Origin::none) all.push_back(now);
       }
     }
     if (level == change_.changed)
       for (std::uint32_t i = 0; i < change_.old_loops.size(); ++i)
-        if (change_.old_loops[i] == none) all.push_back(i);
+        if (change_.old_loops[i] == Origin::none) all.push_back(i);
     std::ranges::sort(all);
     return all;
   }
@@ -300,7 +299,7 @@ std::vector<std::uint32_t> match_loops(const Region& region, const Region& other
   std::map<cdt::Point, std::uint32_t> starts;  // simple regions have each point once
   for (std::uint32_t i = 0; i < other.loop_count(); ++i)
     starts.emplace(other.points[other.loop(i)[0]], i);
-  std::vector<std::uint32_t> matches(region.loop_count(), none);
+  std::vector<std::uint32_t> matches(region.loop_count(), Origin::none);
   for (std::uint32_t i = 0; i < region.loop_count(); ++i) {
     const auto found = starts.find(region.points[region.loop(i)[0]]);
     if (found != starts.end() && is_same_loop(region, i, other, found->second))

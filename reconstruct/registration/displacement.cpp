@@ -45,7 +45,7 @@ std::vector<Corner> triangles(const Region& region) {
   return found;
 }
 
-double cross(Point a, Point b, Point c) {
+double doubled_area(Point a, Point b, Point c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
@@ -79,7 +79,7 @@ std::vector<Spring> springs(const Region& region, std::span<const Corner> triang
   std::vector<Spring> all;
   for (const Corner& t : triangles) {
     const std::array<Point, 3> at{region.points[t[0]], region.points[t[1]], region.points[t[2]]};
-    const double area = cross(at[0], at[1], at[2]);
+    const double area = doubled_area(at[0], at[1], at[2]);
     if (area <= slope_by_rounding * longest_squared(at)) continue;
     for (unsigned k = 0; k < 3; ++k) {
       const Point p = at[k];
@@ -317,9 +317,9 @@ Point Interpolation::inside(EdgeId e, Point place) const {
   const Point p = mesh_.point(corners[0]);
   const Point q = mesh_.point(corners[1]);
   const Point r = mesh_.point(corners[2]);
-  const double whole = cross(p, q, r);
-  const std::array shares{cross(place, q, r) / whole, cross(p, place, r) / whole,
-                          cross(p, q, place) / whole};
+  const double whole = doubled_area(p, q, r);
+  const std::array shares{doubled_area(place, q, r) / whole, doubled_area(p, place, r) / whole,
+                          doubled_area(p, q, place) / whole};
   Point sum;
   for (unsigned i = 0; i < 3; ++i) {
     const Point value = values_[corners[i].index()];

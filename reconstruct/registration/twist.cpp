@@ -13,8 +13,8 @@ namespace loft {
 
 namespace {
 
-/// Lengths that differ by less than that share may do so by rounding.
-constexpr double rounding = 1e-9;
+/// Lengths that differ by less than that share may do so by rounding_of_lengths.
+constexpr double rounding_of_lengths = 1e-9;
 
 class Easing {
  public:
@@ -37,7 +37,7 @@ class Easing {
       }
     const auto has = [&](std::uint32_t tile, const Quad& quad) {
       return diagonal(quad) == longest[tile][0] &&
-             longest[tile][1] < (1 - rounding) * longest[tile][0];
+             longest[tile][1] < (1 - rounding_of_lengths) * longest[tile][0];
     };
     for (const Quad& quad : quads)
       if (has(quad.lower_tile, quad) && has(quad.upper_tile, quad) && twist(quad) > most)

@@ -7,11 +7,7 @@
 
 namespace loft {
 
-namespace {
-
-constexpr std::uint32_t none = Origin::none;
-
-}  // namespace
+// namespace
 
 /// Faces around one corner that mates connect: one fan.
 template <class Visit>
@@ -61,7 +57,7 @@ void Sewing::find_fans(std::uint32_t layer, Found& found) const {
   std::uint32_t slot_count = 0;
   const auto note = [&](std::vector<std::uint32_t>& slots_there, std::uint32_t of,
                         std::uint32_t node) {
-    slots_there.resize(at(of).corner_counts.size(), none);
+    slots_there.resize(at(of).corner_counts.size(), Origin::none);
     slots_there[node] = slot_count;
   };
   const Region& slice = has(layer) ? *at(layer).layer.lower : *at(layer - 1).layer.upper;
@@ -71,7 +67,7 @@ void Sewing::find_fans(std::uint32_t layer, Found& found) const {
     if (layer > 0) note(slots_below, layer - 1, at(layer - 1).lower_count + p);
     ++slot_count;
   }
-  for (std::uint32_t n = has(layer) ? at(layer).contour_count : none;
+  for (std::uint32_t n = has(layer) ? at(layer).contour_count : Origin::none;
        has(layer) && n < at(layer).corner_counts.size(); ++n) {
     if (is_one_fan(layer, n)) continue;
     note(slots, layer, n);
@@ -84,7 +80,7 @@ void Sewing::find_fans(std::uint32_t layer, Found& found) const {
     const State& state = at(from);
     for (std::uint32_t h = 0; h < state.mates.size(); ++h) {
       const std::uint32_t node = state.node(h);
-      if (node < slots_there.size() && slots_there[node] != none)
+      if (node < slots_there.size() && slots_there[node] != Origin::none)
         corners[slots_there[node]].push_back({from, h});
     }
   };

@@ -13,8 +13,6 @@ namespace loft {
 
 namespace {
 
-constexpr std::uint32_t none = Origin::none;
-
 /// For r and s in a plane with the line pq: whether both are on the same side of it.
 bool on_same_side(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& s) {
   for (unsigned axis = 0; axis < 3; ++axis) {
@@ -91,9 +89,9 @@ void Sewing::pair_within(std::uint32_t layer) {
 /// of those with a given smaller node ends.
 void Sewing::sort_out(State& state, std::vector<std::uint32_t>& ends) {
   const auto node_count = state.contour_count + state.layer.tiles.inner.size();
-  state.mates.assign(3 * state.face_count, none);
+  state.mates.assign(3 * state.face_count, Origin::none);
   state.corner_counts.assign(node_count, 0);
-  state.first_corners.assign(node_count, none);
+  state.first_corners.assign(node_count, Origin::none);
   ends.assign(node_count + 1, 0);
   for (std::uint32_t h = 3 * state.face_count; h-- > 0;) {
     const std::uint32_t a = state.node(h);
@@ -136,17 +134,17 @@ bool Sewing::pair_contours_at(std::uint32_t layer) {
   const State& below = at(layer - 1);
   const State& above = at(layer);
   if (below.upper_rim.size() != above.lower_rim.size()) return false;
-  std::vector<std::uint32_t> leaving(above.lower_count, none);  // each point, above
+  std::vector<std::uint32_t> leaving(above.lower_count, Origin::none);  // each point, above
   for (const std::uint32_t h : above.lower_rim) {
     std::uint32_t& here = leaving[above.node(h)];
-    if (here != none) return false;
+    if (here != Origin::none) return false;
     here = h;
   }
   const auto point = [&](HalfEdge h) { return below.node(h.index) - below.lower_count; };
   for (const std::uint32_t index : below.upper_rim) {
     const HalfEdge h{layer - 1, index};
     const std::uint32_t opposite = leaving[point(next(h))];
-    if (opposite == none || above.node(next(opposite)) != point(h)) return false;
+    if (opposite == Origin::none || above.node(next(opposite)) != point(h)) return false;
   }
   for (const std::uint32_t index : below.upper_rim) {
     const HalfEdge h{layer - 1, index};

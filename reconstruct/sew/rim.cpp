@@ -8,15 +8,13 @@ namespace loft {
 
 namespace {
 
-constexpr std::uint32_t none = Origin::none;
-
 /// Finds the place of a contour edge among the loop vertices of its region.
 class RimIndex {
  public:
   explicit RimIndex(const Region& region) : region_(region) {
-    places_.assign(region.points.size(), none);
+    places_.assign(region.points.size(), Origin::none);
     nexts_.resize(region.loop_vertices.size());
-    others_.assign(region.loop_vertices.size(), none);
+    others_.assign(region.loop_vertices.size(), Origin::none);
     for (std::size_t l = 0; l < region.loop_count(); ++l) {
       const auto loop = region.loop(l);
       const std::uint32_t first = region.loop_starts[l];
@@ -31,7 +29,7 @@ class RimIndex {
   /// edge across a cap.
   [[nodiscard]] std::uint32_t find(std::uint32_t from, std::uint32_t to) const {
     std::uint32_t place = places_[from];
-    while (place != none && end(place) != to) place = others_[place];
+    while (place != Origin::none && end(place) != to) place = others_[place];
     return place;
   }
 
@@ -85,9 +83,9 @@ RimPlaces::RimPlaces(const Sewing& sewing, std::uint32_t first, std::uint32_t la
   for (std::uint32_t i = 0; i < last - first; ++i) {
     std::vector<std::uint32_t> lower_counts(region_of(slices[i]).loop_vertices.size());
     std::vector<std::uint32_t> upper_counts(region_of(slices[i + 1]).loop_vertices.size());
-    numbers_[i].assign(std::size_t{3} * sewing.face_count_with_cuts(first + i), none);
+    numbers_[i].assign(std::size_t{3} * sewing.face_count_with_cuts(first + i), Origin::none);
     const auto note = [&](std::uint32_t h, RimPlace place) {
-      if (place.place == none) return;
+      if (place.place == Origin::none) return;
       ++(place.is_above ? lower_counts : upper_counts)[place.place];
       numbers_[i][h] = static_cast<std::uint32_t>(places_.size());
       places_.push_back(place);
@@ -107,7 +105,7 @@ RimPlaces::RimPlaces(const Sewing& sewing, std::uint32_t first, std::uint32_t la
 
 const RimPlace* RimPlaces::find(HalfEdge h) const {
   const std::uint32_t number = numbers_[h.layer - first_layer_][h.index];
-  return number == none ? nullptr : &places_[number];
+  return number == Origin::none ? nullptr : &places_[number];
 }
 
 }  // namespace loft

@@ -13,8 +13,6 @@ namespace loft {
 
 namespace {
 
-constexpr std::uint32_t none = Origin::none;
-
 // Mates are coded by their number in their layer and the step to that layer.
 constexpr std::uint32_t in_layer_below = 0x8000'0000;
 constexpr std::uint32_t in_layer_above = 0x4000'0000;
@@ -26,7 +24,7 @@ constexpr std::uint32_t number_bits = VertexNumbers::bound - 1;
 
 HalfEdge Sewing::mate(HalfEdge h) const {
   const std::uint32_t code = at(h.layer).mates[h.index];
-  if (code == none) return {};
+  if (code == Origin::none) return {};
   if ((code & in_layer_below) != 0) return {h.layer - 1, code & number_bits};
   if ((code & in_layer_above) != 0) return {h.layer + 1, code & number_bits};
   return {h.layer, code};
@@ -87,10 +85,10 @@ std::uint32_t Sewing::contour_node(HalfEdge corner) const {
   const State& state = at(corner.layer);
   const std::uint32_t node = state.node(corner.index);
   const bool is_doubled = (node & VertexNumbers::midpoint_mark) == VertexNumbers::doubled_mark;
-  if (!is_doubled) return node < state.contour_count ? node : none;
+  if (!is_doubled) return node < state.contour_count ? node : Origin::none;
   const auto [layer, point] = doubled_points_[node & number_bits];
   if (layer == corner.layer) return point;
-  return layer == corner.layer + 1 ? state.lower_count + point : none;
+  return layer == corner.layer + 1 ? state.lower_count + point : Origin::none;
 }
 
 void Sewing::set_node(HalfEdge corner, std::uint32_t node) {

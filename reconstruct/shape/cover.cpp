@@ -14,15 +14,8 @@ namespace {
 constexpr double edge_width = 0x1p-40;
 
 /// Twice the area, as seen; negative from behind.
-double area(const Vec3& a, const Vec3& b, const Vec3& c) {
+double area_seen(const Vec3& a, const Vec3& b, const Vec3& c) {
   return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-}
-
-bool make_unit(Vec3& v) {
-  const double size = length(v);
-  if (!(size > 0) || !std::isfinite(size)) return false;
-  for (double& x : v) x /= size;
-  return true;
 }
 
 /// A triangle that was cut three times has at most six corners; nine if rounding makes notches.
@@ -61,7 +54,7 @@ bool Cover::covers(const Corners& triangle, std::span<const std::uint32_t> among
     const std::uint32_t face = front_.back();
     front_.pop_back();
     const Seen corners = seen(face);
-    if (!(area(corners[0], corners[1], corners[2]) > 0) || !is_near(corners)) return false;
+    if (!(area_seen(corners[0], corners[1], corners[2]) > 0) || !is_near(corners)) return false;
     for (std::size_t i = 0; i < 3; ++i) {
       if (!enters(corners[i], corners[(i + 1) % 3])) continue;
       const std::uint32_t next = neighbours_[face][i];
@@ -112,8 +105,8 @@ Cover::Seen Cover::seen(std::uint32_t face) const {
 std::uint32_t Cover::face_at_middle(std::span<const std::uint32_t> among) const {
   const auto is_there = [this](std::uint32_t face) {
     const Seen p = seen(face);
-    return area(p[0], p[1], middle_) >= 0 && area(p[1], p[2], middle_) >= 0 &&
-           area(p[2], p[0], middle_) >= 0 && is_near(p);
+    return area_seen(p[0], p[1], middle_) >= 0 && area_seen(p[1], p[2], middle_) >= 0 &&
+           area_seen(p[2], p[0], middle_) >= 0 && is_near(p);
   };
   const auto found = std::ranges::find_if(among, is_there);
   return found == among.end() ? none : *found;

@@ -43,13 +43,6 @@ double gap(const Vec3& end, const Vec3& a, const Vec3& b) {
   return std::abs(t * end[2] - (a[2] + s * ab[2]));
 }
 
-bool make_unit(Vec3& v) {
-  const double magnitude = length(v);
-  if (!(magnitude > 0)) return false;
-  for (double& x : v) x /= magnitude;
-  return true;
-}
-
 /// A unit vector at a right angle to a unit vector.
 Vec3 across(const Vec3& normal) {
   std::size_t least = 0;

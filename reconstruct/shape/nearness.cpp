@@ -20,7 +20,7 @@ constexpr std::size_t pieces_at_least = 256;
 constexpr int halvings = 5;
 
 /// A cut nearer to an end than that would leave nearly all of the piece.
-constexpr double least_share = 0.03;
+constexpr double least_share_of_edge = 0.03;
 
 Vec3 scaled(double share, const Vec3& way) { return along({}, share, way); }
 
@@ -185,7 +185,7 @@ double Nearness::share_of_cut(const Piece& piece, std::size_t a,
     }
     reach = near;
   }
-  return std::clamp((reach_of_a + reach_of_b) / 2, least_share, 1 - least_share);
+  return std::clamp((reach_of_a + reach_of_b) / 2, least_share_of_edge, 1 - least_share_of_edge);
 }
 
 }  // namespace loft

@@ -29,13 +29,13 @@ constexpr double least_of_target = 4.0 / 5;
 
 /// The most that a triangle may turn, in radians: 10 degrees. With 15 the surface moved by twice as
 /// much, for angles that were hardly better; with 5 they were worse.
-constexpr double most_turn = 0.175;
+constexpr double most_turn_of_faces = 0.175;
 
 /// A collapse may leave no worse angle than it finds, or than this sine: 20 degrees.
 constexpr double good_sine = 0.34;
 
 /// Each step makes room for others: that often all are tried. After five rounds little changes.
-constexpr int most_rounds = 5;
+constexpr int most_passes = 5;
 
 /// Brings edges near a length, by one round of steps or more.
 class Evening {
@@ -342,9 +342,10 @@ TileSet even_out_edges(const Region& lower, const Region& upper, TileSet tiles,
   double scale = 1;
   for (const double longest = longest_inner_edge(mesh); 2 * scale * target_edge < longest;)
     scale *= 2;
-  for (; scale > 1; scale /= 2) Evening(mesh, scale * target_edge, most_turn / scale).run();
-  Evening last(mesh, target_edge, most_turn);
-  for (int round = 0; round < most_rounds && last.run(); ++round) {
+  for (; scale > 1; scale /= 2)
+    Evening(mesh, scale * target_edge, most_turn_of_faces / scale).run();
+  Evening last(mesh, target_edge, most_turn_of_faces);
+  for (int round = 0; round < most_passes && last.run(); ++round) {
   }
   return tiles;
 }

@@ -59,8 +59,6 @@ constexpr std::size_t least_looks = 1'000'000;
 /// A collapse may make room for another: that often all are tried.
 constexpr int most_passes = 4;
 
-constexpr std::uint32_t none = Origin::none;
-
 using Nodes = std::array<std::uint32_t, 3>;
 
 class Collapse {
@@ -84,7 +82,7 @@ class Collapse {
     find_crossings();
     if (crossings_.empty()) return true;
     list_faces();
-    std::erase_if(crossings_, [this](std::uint32_t p) { return slot_[p] == none; });
+    std::erase_if(crossings_, [this](std::uint32_t p) { return slot_[p] == Origin::none; });
     measure_crossings();
     grid_.emplace(tiles_.size(), [this](std::uint32_t f) { return footprint(tiles_[f].nodes); });
     tests_left_ = least_tests + most_tests * crossings_.size();
@@ -155,19 +153,19 @@ class Collapse {
 
   /// The faces at every node next to a crossing: nothing else can change.
   void list_faces() {
-    slot_.assign(contour_count_ + inner_.size(), none);
+    slot_.assign(contour_count_ + inner_.size(), Origin::none);
     for (const Tile& tile : tiles_) {
       if (std::ranges::none_of(tile.nodes, [this](auto node) { return is_crossing(node); }))
         continue;
       for (const std::uint32_t node : tile.nodes) {
-        if (slot_[node] != none) continue;
+        if (slot_[node] != Origin::none) continue;
         slot_[node] = static_cast<std::uint32_t>(faces_.size());
         faces_.emplace_back();
       }
     }
     for (std::uint32_t f = 0; f < tiles_.size(); ++f)
       for (const std::uint32_t node : tiles_[f].nodes)
-        if (slot_[node] != none) faces_[slot_[node]].push_back(f);
+        if (slot_[node] != Origin::none) faces_[slot_[node]].push_back(f);
   }
 
   [[nodiscard]] std::vector<std::uint32_t>& faces_at(std::uint32_t node) {
@@ -227,7 +225,7 @@ class Collapse {
 
   /// One of the contour vertices of the tiles around p.
   [[nodiscard]] std::uint32_t contour_vertex(std::uint32_t p) {
-    std::uint32_t least = none;
+    std::uint32_t least = Origin::none;
     for (const std::uint32_t face : faces_at(p))
       for (const std::uint32_t node : tiles_[face].nodes) least = std::min(least, node);
     return least;
@@ -252,7 +250,7 @@ class Collapse {
   bool collapse_all() {
     waiting_.assign(inner_.size(), std::nullopt);
     for (const std::uint32_t p : crossings_)
-      if (slot_[p] != none) wait(p);
+      if (slot_[p] != Origin::none) wait(p);
     bool is_changed = false;
     while (!queue_.empty() && tests_left_ > 0) {
       const std::uint32_t p = queue_.begin()->node;
@@ -260,7 +258,7 @@ class Collapse {
       waiting_[p - contour_count_].reset();
       if (!collapse(p)) continue;
       is_changed = true;
-      slot_[p] = none;
+      slot_[p] = Origin::none;
       const std::vector<std::uint32_t> around = link_;
       for (const std::uint32_t node : around)
         if (is_crossing(node) && looks_left_ > 0) wait(node);
@@ -405,7 +403,9 @@ class Collapse {
     return corners;
   }
 
-  [[nodiscard]] bool is_dead(std::uint32_t face) const { return tiles_[face].nodes[0] == none; }
+  [[nodiscard]] bool is_dead(std::uint32_t face) const {
+    return tiles_[face].nodes[0] == Origin::none;
+  }
 
   /// Puts the fan in the place of the faces at p: two of them go, the others get v instead of p.
   void replace(std::uint32_t p, std::uint32_t v) {
@@ -414,7 +414,7 @@ class Collapse {
       if (std::ranges::find(nodes, v) != nodes.end()) {
         for (const std::uint32_t x : nodes)
           if (x != p) std::erase(faces_at(x), face);
-        nodes[0] = none;
+        nodes[0] = Origin::none;
       } else {
         std::ranges::replace(nodes, p, v);
         faces_at(v).push_back(face);
@@ -426,7 +426,7 @@ class Collapse {
 
   /// Drops dead tiles and the inner vertices that no tile uses.
   void compact() {
-    std::erase_if(tiles_, [](const Tile& tile) { return tile.nodes[0] == none; });
+    std::erase_if(tiles_, [](const Tile& tile) { return tile.nodes[0] == Origin::none; });
     drop_unused_inner(tiles_, inner_, contour_count_);
   }
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cdt/predicates.h"
+#include "reconstruct/tile/middle.h"
 #include "reconstruct/tile/sheet_heights.h"
 
 namespace loft {
@@ -27,21 +28,7 @@ constexpr int most_rounds = 8;
 /// An end is refined where its edges are further from its height than that share of the slab.
 constexpr double coarseness = 0.1;
 
-/// The same to the last bit from either end.
-Point middle(Point a, Point b) {
-  if (b < a) std::swap(a, b);
-  return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
-}
-
 double distance(Point a, Point b) { return std::hypot(b.x - a.x, b.y - a.y); }
-
-/// The same to the last bit from every corner.
-Point middle(Point a, Point b, Point c) {
-  if (b < a) std::swap(a, b);
-  if (c < a) std::swap(a, c);
-  if (c < b) std::swap(b, c);
-  return {a.x + ((b.x - a.x) + (c.x - a.x)) / 3, a.y + ((b.y - a.y) + (c.y - a.y)) / 3};
-}
 
 }  // namespace
 

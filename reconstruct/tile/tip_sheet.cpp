@@ -9,6 +9,7 @@
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
 #include "reconstruct/plane/nearest.h"
+#include "reconstruct/tile/middle.h"
 #include "reconstruct/tile/sheet_heights.h"
 
 namespace loft {
@@ -20,18 +21,6 @@ using cdt::Point;
 using cdt::SegmentId;
 using cdt::Triangulation;
 using cdt::VertexId;
-
-Point middle(Point a, Point b) {
-  if (b < a) std::swap(a, b);
-  return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};
-}
-
-Point middle(Point a, Point b, Point c) {
-  std::array corners{a, b, c};
-  std::ranges::sort(corners);
-  const auto& [p, q, r] = corners;
-  return {p.x + ((q.x - p.x) + (r.x - p.x)) / 3, p.y + ((q.y - p.y) + (r.y - p.y)) / 3};
-}
 
 /// The lines of a region; a point is one without length.
 std::vector<Segment> segments_of_lines(const Region& region, std::span<const std::uint32_t> lines) {

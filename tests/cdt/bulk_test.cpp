@@ -45,7 +45,7 @@ std::string all_of(const Triangulation& mesh) {
   return out.str();
 }
 
-void expect_same_constraints(const Triangulation& a, const Triangulation& b) {
+void expect_same_courses(const Triangulation& a, const Triangulation& b) {
   ASSERT_EQ(a.constraint_bound(), b.constraint_bound());
   for (std::uint32_t i = 0; i < a.constraint_bound(); ++i) {
     const ConstraintId c(i);
@@ -68,7 +68,7 @@ bool expect_same_at_once(const Triangulation& start, std::vector<ConstraintId> i
   for (const auto& [points, ends] : outlines) others.push_back(one_by_one.insert(points, ends));
   EXPECT_EQ(new_ids, others);
   EXPECT_EQ(first_fault(at_once), "");
-  expect_same_constraints(at_once, one_by_one);
+  expect_same_courses(at_once, one_by_one);
   if (!at_once.snaps().empty() || !one_by_one.snaps().empty()) return false;
   ids.insert(ids.end(), others.begin(), others.end());
   EXPECT_EQ(difference(picture_of(at_once, ids), picture_of(one_by_one, ids)), "");

@@ -9,6 +9,8 @@
 #include <random>
 #include <vector>
 
+#include "cdt/rounding.h"
+
 namespace loft::cdt {
 namespace {
 
@@ -25,8 +27,6 @@ std::vector<Point> random_points(std::size_t n, std::uint64_t seed) {
   }
   return points;
 }
-
-double distance(Point p, Point q) { return std::hypot(p.x - q.x, p.y - q.y); }
 
 TEST(Locator, KnowsNothingAtFirstAndAfterClear) {
   Locator locator;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Planes in both formats that have them.
-#include "io/stacks/csl.h"
+#include "io/contours/csl.h"
 #include "tests/fuzz/stacks.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

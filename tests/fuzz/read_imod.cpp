@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/stacks/imod.h"
+#include "io/contours/imod.h"
 #include "tests/fuzz/stacks.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {

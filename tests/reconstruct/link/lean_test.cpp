@@ -18,7 +18,7 @@ namespace {
 
 using cdt::Point;
 
-constexpr std::size_t corners = 48;
+constexpr std::size_t circle_corners = 48;
 constexpr int last = 3;  // the last slice of a tube; the first is 1
 constexpr double tight = 1e-9;
 
@@ -29,7 +29,7 @@ std::vector<Slice> tube(Point step, Point from = {}) {
     slices.push_back({1.0 * i, {}});
     if (i >= 1 && i <= last)
       slices.back().contours.push_back(
-          stacks::circle(corners, 1, {from.x + i * step.x, from.y + i * step.y}));
+          stacks::circle(circle_corners, 1, {from.x + i * step.x, from.y + i * step.y}));
   }
   return slices;
 }
@@ -49,7 +49,7 @@ Vec3 tip(const Surface& surface, double above = last, double side = 0) {
   return highest;
 }
 
-Surface solid(const std::vector<Slice>& slices, const Options& options = {}) {
+Surface made_solid(const std::vector<Slice>& slices, const Options& options = {}) {
   Surface surface = reconstruct(slices, options).surface;
   EXPECT_EQ(solids::faults(surface), "");
   return surface;
@@ -66,14 +66,14 @@ std::vector<Vec3> places(const Surface& surface) {
 
 /// As it is if nothing moves by itself.
 std::vector<Vec3> upright_places(const std::vector<Slice>& slices) {
-  return places(solid(slices, {.link = LinkRule::overlap}));
+  return places(made_solid(slices, {.link = LinkRule::overlap}));
 }
 
 TEST(Lean, TheTipOfASlantedTubeLiesOnItsAxis) {
   for (const bool is_smooth : {false, true})
     for (const Point step : {Point{0.3, 0.1}, Point{-0.8, 0.2}, Point{1.4, 0}, Point{0, -2.5}}) {
       SCOPED_TRACE(std::to_string(step.x) + (is_smooth ? ", smooth" : ""));
-      const Surface surface = solid(tube(step), {.smooth = is_smooth});
+      const Surface surface = made_solid(tube(step), {.smooth = is_smooth});
       const Vec3 top = tip(surface);
       const double tolerance = is_smooth ? 0.02 : tight;  // steps of the bending are not exact
       EXPECT_GT(top[2], last + 0.3);
@@ -89,8 +89,8 @@ TEST(Lean, TheTipOfASlantedTubeLiesOnItsAxis) {
 
 TEST(Lean, DoesNotChangeHeights) {
   const std::vector<Slice> slices = tube({0.8, 0.2});
-  const Surface leaning = solid(slices);
-  const Surface upright = solid(slices, {.link = LinkRule::overlap});
+  const Surface leaning = made_solid(slices);
+  const Surface upright = made_solid(slices, {.link = LinkRule::overlap});
   EXPECT_EQ(tip(leaning)[2], tip(upright)[2]);
   EXPECT_NE(tip(leaning)[0], tip(upright)[0]);
 }
@@ -98,7 +98,7 @@ TEST(Lean, DoesNotChangeHeights) {
 TEST(Lean, UprightAndAllButUprightTubesStayAsTheyAre) {
   for (const double step : {0.0, 0.02}) {
     const std::vector<Slice> slices = tube({step, 0});
-    EXPECT_EQ(places(solid(slices)), upright_places(slices));
+    EXPECT_EQ(places(made_solid(slices)), upright_places(slices));
   }
 }
 
@@ -107,7 +107,7 @@ TEST(Lean, WhatShrinksAtOneSideGoesNowhere) {
   for (int i = 0; i < last; ++i) slices.push_back({1.0 * i, {stacks::square(2)}});
   slices.push_back({last, {stacks::square(0.5, {1.5, 0})}});
   slices.push_back({last + 1, {}});
-  EXPECT_EQ(places(solid(slices)), upright_places(slices));
+  EXPECT_EQ(places(made_solid(slices)), upright_places(slices));
 }
 
 TEST(Lean, IsSmallerWhereItWouldMeetSomething) {
@@ -115,7 +115,7 @@ TEST(Lean, IsSmallerWhereItWouldMeetSomething) {
   std::vector<Slice> slices = tube({step, 0});
   for (Slice& slice : slices)  // 0.1 beside the last disc
     slice.contours.push_back(stacks::square(0.5, {step * last + 1.6, 0}));
-  const Surface surface = solid(slices);
+  const Surface surface = made_solid(slices);
   EXPECT_EQ(measure(surface).components, 2U);
   const Vec3 top = tip(surface);
   EXPECT_NEAR(top[0], step * last + step / 2 * (top[2] - last), tight);
@@ -124,7 +124,7 @@ TEST(Lean, IsSmallerWhereItWouldMeetSomething) {
 TEST(Lean, TipsThatWouldMeetEachOtherBothLeanLess) {
   std::vector<Slice> slices = tube({1.5, 0}, {-1.5 * last - 1.1, 0});
   add(slices, tube({-1.5, 0}, {1.5 * last + 1.1, 0}));
-  const Surface surface = solid(slices);
+  const Surface surface = made_solid(slices);
   EXPECT_EQ(measure(surface).components, 2U);
   const Vec3 left = tip(surface, last, -1);
   const Vec3 right = tip(surface, last, 1);
@@ -136,7 +136,7 @@ TEST(Lean, CavitiesLeanAsParts) {
   constexpr double step = 0.7;
   std::vector<Slice> slices = tube({step, 0});
   for (Slice& slice : slices) slice.contours.push_back(stacks::square(6));
-  const Surface surface = solid(slices);
+  const Surface surface = made_solid(slices);
   const Vec3 top = tip(surface);
   EXPECT_GT(top[2], last + 0.3);
   EXPECT_NEAR(top[0], step * top[2], tight);
@@ -145,7 +145,7 @@ TEST(Lean, CavitiesLeanAsParts) {
 TEST(Lean, NoneIsFurtherThanAPartWasSeenToGo) {
   std::vector<Slice> slices = tube({0.5, 0});
   for (int i = 0; i <= last; ++i) slices[static_cast<std::size_t>(i)].z = last + 0.1 * (i - last);
-  const Surface surface = solid(slices);
+  const Surface surface = made_solid(slices);
   const Vec3 top = tip(surface);
   EXPECT_GT(top[0], last * 0.5);
   EXPECT_LE(top[0], last * 0.5 + 0.5 + tight);
@@ -161,7 +161,7 @@ TEST(Lean, EditsOfTheSliceBeforeGiveWhatIsBuiltAtOnce) {
     expect_same();
     for (const Point step : {Point{0, 0}, Point{0.5, -0.3}, Point{0.8, 0.2}}) {
       const Point p{last * 0.8 - step.x, last * 0.2 - step.y};
-      live.replace(last - 1, {last - 1, {stacks::circle(corners, 1, p)}});
+      live.replace(last - 1, {last - 1, {stacks::circle(circle_corners, 1, p)}});
       expect_same();
     }
     live.remove(last - 1);

@@ -18,10 +18,10 @@ namespace {
 
 using cdt::Point;
 
-constexpr std::size_t corners = 40;
-const double disc_area = corners * std::sin(2 * std::numbers::pi / corners) / 2;
+constexpr std::size_t disc_corners = 40;
+const double area_of_disc = disc_corners * std::sin(2 * std::numbers::pi / disc_corners) / 2;
 
-Contour disc(Point centre) { return stacks::circle(corners, 1, centre); }
+Contour disc(Point centre) { return stacks::circle(disc_corners, 1, centre); }
 
 /// Two discs of radius 1, 2.6 from each other, that move by `step` towards where one of them was.
 std::vector<Slice> pair_of_discs(double step, int count = 4) {
@@ -39,7 +39,7 @@ std::vector<Slice> fork_of_discs(double step) {
   return slices;
 }
 
-Reconstructed solid(const std::vector<Slice>& slices) {
+Reconstructed separate_solid(const std::vector<Slice>& slices) {
   Options options;
   options.reports_slabs = true;
   Reconstructed made = reconstruct(slices, options);
@@ -57,17 +57,17 @@ std::size_t count(const Reconstructed& made, LinkKind kind) {
 TEST(Separate, PartsThatComeWhereOthersWereStayApart) {
   for (const double step : {0.7, 0.9, 1.1}) {
     SCOPED_TRACE(step);
-    const Reconstructed made = solid(pair_of_discs(step));
+    const Reconstructed made = separate_solid(pair_of_discs(step));
     const Measures measures = measure(made.surface);
     EXPECT_EQ(measures.components, 2U);
     EXPECT_EQ(measures.genus, 0);
-    EXPECT_NEAR(measures.volume, 6 * disc_area, 1e-9);
+    EXPECT_NEAR(measures.volume, 6 * area_of_disc, 1e-9);
     EXPECT_EQ(count(made, LinkKind::link), 6U);
   }
 }
 
 TEST(Separate, PartsThatOverlapAsMuchCrosswiseStayTogether) {
-  const Reconstructed made = solid(pair_of_discs(1.3, 2));
+  const Reconstructed made = separate_solid(pair_of_discs(1.3, 2));
   EXPECT_EQ(count(made, LinkKind::tangle), 1U);
 }
 
@@ -84,7 +84,7 @@ TEST(Separate, AnOrderKeepsThemTogether) {
 TEST(Separate, AnEditOfOnePartLooksAtTheOtherOne) {
   Reconstruction live;
   for (const Slice& slice : pair_of_discs(0.9, 2)) live.insert(slice);
-  live.replace(0, Slice{0, {stacks::circle(corners, 0.3, {-0.6, 0}), disc({2.6, 0})}});
+  live.replace(0, Slice{0, {stacks::circle(disc_corners, 0.3, {-0.6, 0}), disc({2.6, 0})}});
   EXPECT_EQ(edits::difference(live, {}), "");
   EXPECT_EQ(solids::faults(live.snapshot().surface(1)), "");
 }
@@ -96,7 +96,7 @@ TEST(Separate, EditsLeadToTheSameSurfaceAsTheWholeStack) {
 TEST(Joins, BranchesThatLeaveTheTrunkAtOnceAreJoinedToIt) {
   for (const double step : {2.05, 2.1, 2.2}) {
     SCOPED_TRACE(step);
-    const Reconstructed made = solid(fork_of_discs(step));
+    const Reconstructed made = separate_solid(fork_of_discs(step));
     const Measures measures = measure(made.surface);
     EXPECT_EQ(measures.components, 1U);
     EXPECT_EQ(measures.genus, 0);
@@ -108,7 +108,7 @@ TEST(Joins, WhatDoesNotComeFromAPartIsNotJoinedToIt) {
   std::vector<Slice> slices = fork_of_discs(2.4);
   for (std::size_t i = 2; i < slices.size(); ++i)
     slices[i].contours = {disc({-1.0 * double(i), 0}), disc({2.4, 3.0 * double(i)})};
-  EXPECT_EQ(measure(solid(slices).surface).components, 2U);
+  EXPECT_EQ(measure(separate_solid(slices).surface).components, 2U);
 }
 
 TEST(Joins, AnOrderKeepsABranchFromItsTrunk) {
