@@ -40,6 +40,7 @@ void Triangulation::clear() {
   snaps_.clear();
   locator_.clear();
   changes_ = {};
+  touched_.clear();
   last_ = EdgeId::none();
   only_ = VertexId::none();
   vertex_count_ = 0;
@@ -76,15 +77,18 @@ void Triangulation::check_known(ConstraintId id) const {
 
 void Triangulation::begin_edit() {
   edited_.clear();
-  touched_.clear();
+  if (!is_in_batch_) touched_.clear();
 }
 
 void Triangulation::end_edit() {
   if (!crowded_.empty() || !loose_.empty()) settle_loose();
   if (!snaps_.empty()) tidy_snaps();
+  if (is_recording_ && !is_in_batch_) sum_up_changes();
+}
+
+void Triangulation::sum_up_changes() {
   changes_.made.clear();
   changes_.unmade.clear();
-  if (!is_recording_) return;
   std::ranges::stable_sort(touched_, {}, &Touch::triangle);
   for (std::size_t i = 0; i < touched_.size(); ++i) {
     const Touch& first = touched_[i];
@@ -97,6 +101,18 @@ void Triangulation::end_edit() {
 void Triangulation::record_changes(bool is_on) {
   is_recording_ = is_on;
   changes_ = {};
+  touched_.clear();
+}
+
+void Triangulation::begin_batch() {
+  is_in_batch_ = true;
+  changes_ = {};
+  touched_.clear();
+}
+
+void Triangulation::end_batch() {
+  is_in_batch_ = false;
+  if (is_recording_) sum_up_changes();
 }
 
 ConstraintId Triangulation::insert(std::span<const Point> points, Ends ends) {

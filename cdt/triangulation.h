@@ -150,8 +150,12 @@ class Triangulation {
 
   /// From now on (or no longer) each edit notes the triangles that it makes and unmakes.
   void record_changes(bool is_on);
-  /// Those of the last edit that changed something; empty if they were not recorded, and after
-  /// clear().
+  /// From here to end_batch(), edits are one edit as far as changes() is concerned. Until then it
+  /// says nothing.
+  void begin_batch();
+  void end_batch();
+  /// Those of the last edit, or batch, that changed something; empty if they were not recorded, and
+  /// after clear().
   [[nodiscard]] const Changes& changes() const { return changes_; }
 
   /// Where a point is; nowhere if it is not finite.
@@ -384,6 +388,7 @@ class Triangulation {
   void check_known(ConstraintId id) const;
   void begin_edit();
   void end_edit();
+  void sum_up_changes();
   [[nodiscard]] ConstraintId new_constraint();
   void describe(ConstraintId id, std::span<const VertexId> vertices, Ends ends);
   void lay_all(ConstraintId id);
@@ -586,6 +591,7 @@ class Triangulation {
   bool is_surrounded_ = true;  // what fan_out() came by: constrained edges,
   bool is_crowded_ = true;     // vertices or edges hardly apart from the new one
   bool is_recording_ = false;
+  bool is_in_batch_ = false;
   Changes changes_;
 
   // Scratch memory of single operations, kept to spare allocations.

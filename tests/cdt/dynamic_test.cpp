@@ -471,7 +471,7 @@ TEST(FailedEdits, LeaveEverythingAsItWas) {
 }
 
 /// Keeps its own copy of the finite triangles by what changes() says alone.
-class Follower {
+class Onlooker {
  public:
   void follow(const Triangulation& mesh) {
     for (const TriangleId t : mesh.changes().unmade) triangles_.erase(t);
@@ -507,11 +507,11 @@ TEST(Changes, TellAFollowerEverything) {
   for (const Ground ground : all_grounds) {
     Player player;
     player.mesh().record_changes(true);
-    Follower follower;
+    Onlooker onlooker;
     for (const Edit& edit : random_script(3, ground, 120, 6)) {
       player.play(edit);
-      follower.follow(player.mesh());
-      ASSERT_TRUE(follower.agrees_with(player.mesh())) << name_of(ground);
+      onlooker.follow(player.mesh());
+      ASSERT_TRUE(onlooker.agrees_with(player.mesh())) << name_of(ground);
     }
   }
 }
