@@ -16,6 +16,7 @@
 #include "cdt/predicates.h"
 #include "cdt/regions.h"
 #include "cdt/triangulation.h"
+#include "tests/cases.h"
 #include "tests/cdt/courses.h"
 #include "tests/cdt/random_edits.h"
 
@@ -140,7 +141,7 @@ class Areas : public testing::TestWithParam<Ground> {};
 
 TEST_P(Areas, OfRandomPolygonsAreExact) {
   constexpr std::uint64_t first_seed = 20240901;
-  for (std::uint64_t seed = first_seed; seed < first_seed + 100; ++seed) {
+  for (std::uint64_t seed = first_seed; seed < first_seed + cases(100); ++seed) {
     SCOPED_TRACE(std::string(name_of(GetParam())) + ", seed " + std::to_string(seed));
     expect_exact_areas(random_polygons(seed, GetParam()));
     if (HasFailure()) return;

@@ -10,6 +10,7 @@
 
 #include "reconstruct/clean/normal_form.h"
 #include "reconstruct/reconstruct.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/random_pairs.h"
 #include "tests/reconstruct/shrink.h"
 #include "tests/reconstruct/solid.h"
@@ -88,7 +89,7 @@ bool is_left_apart(const Pair& pair) {
 /// How many pairs: a few seconds' worth, or what the long run asks for.
 std::uint64_t pairs_wanted() {
   const char* wanted = std::getenv("LOFT_SOAK_PAIRS");
-  return wanted == nullptr ? 480 : std::strtoull(wanted, nullptr, 10);
+  return wanted == nullptr ? cases(480) : std::strtoull(wanted, nullptr, 10);
 }
 
 std::uint64_t first_pair() {

@@ -7,6 +7,8 @@
 
 #include <cstdlib>
 
+#include "tests/cases.h"
+
 namespace loft {
 namespace {
 
@@ -17,7 +19,7 @@ std::uint64_t number_from(const char* variable, std::uint64_t otherwise) {
 
 TEST(AnyStack, MakesASolidAndKeepsItsAreas) {
   const std::uint64_t first = number_from("LOFT_SOAK_FIRST", 0);
-  const std::uint64_t wanted = number_from("LOFT_SOAK_STACKS", 300);
+  const std::uint64_t wanted = number_from("LOFT_SOAK_STACKS", cases(300));
   int failures = 0;
   for (std::uint64_t seed = first; seed < first + wanted && failures < 8; ++seed) {
     const stacks::AnyStack any = stacks::stack_from_seed(seed);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reconstruct/reconstruct.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/stacks.h"
 
 namespace loft {
@@ -101,7 +102,7 @@ TEST(OutOfCore, MakesTheSameSurfaceInTheSameOrder) {
 }
 
 TEST(OutOfCore, MakesTheSameOfAnyContours) {
-  for (std::uint64_t seed = 0; seed < 40; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(40); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     std::vector<Slice> slices;

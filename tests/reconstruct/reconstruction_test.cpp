@@ -14,6 +14,7 @@
 
 #include "mesh/check.h"
 #include "mesh/measure.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/live/change_watch.h"
 #include "tests/reconstruct/live/edit_script.h"
 #include "tests/reconstruct/random_pairs.h"
@@ -30,7 +31,7 @@ using edits::RandomEdits;
 /// Edits in CI; LOFT_SOAK_EDITS makes it more.
 std::size_t edit_count(std::size_t usual) {
   const char* const wanted = std::getenv("LOFT_SOAK_EDITS");
-  return wanted == nullptr ? usual : std::strtoul(wanted, nullptr, 10);
+  return wanted == nullptr ? cases(usual) : std::strtoul(wanted, nullptr, 10);
 }
 
 /// Plays random edits; the surface is compared with the one built at once after every few.

@@ -13,6 +13,7 @@
 #include "reconstruct/link/ends.h"
 #include "reconstruct/link/linking.h"
 #include "reconstruct/reconstruct.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 
@@ -411,7 +412,7 @@ std::vector<Slice> wandering(std::uint64_t seed) {
 
 // Steiner points were computed from the first corner of a triangle, and differed in the last bit.
 TEST(Links, DoNotDependOnTheOrderOfContours) {
-  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(20); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const Options options{.link = seed % 2 == 0 ? LinkRule::automatic : LinkRule::overlap};
     auto slices = wandering(seed);
@@ -448,7 +449,7 @@ TEST(Links, OfAMirroredStackAreMirrored) {
 }
 
 TEST(Links, OfAnyWanderersMakeASolid) {
-  for (std::uint64_t seed = 100; seed < 160; ++seed) {
+  for (std::uint64_t seed = 100; seed < 100 + cases(60); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     const auto slices = wandering(seed);
     std::mt19937_64 random(seed);

@@ -12,6 +12,7 @@
 #include "mesh/measure.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/reconstruct.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 #include "tests/reconstruct/triangles.h"
@@ -221,7 +222,7 @@ TEST(Simplify, ADentedPartDoesNotTurnInsideOut) {
 }
 
 TEST(Simplify, AnySolidStaysOne) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(60); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     std::vector<Slice> slices;

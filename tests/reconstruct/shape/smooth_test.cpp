@@ -12,6 +12,7 @@
 
 #include "mesh/measure.h"
 #include "reconstruct/reconstruct.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 
@@ -190,7 +191,7 @@ TEST(Smooth, APartMayEndNextToAVeryThinSlab) {
 }
 
 TEST(Smooth, AnyContoursMakeASolid) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(60); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     std::vector<Slice> slices;
