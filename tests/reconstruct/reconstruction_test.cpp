@@ -206,6 +206,13 @@ TEST(Reconstruction, RandomEditsOfOpenSurfacesThatTouchGiveWhatTheBatchGives) {
   }
 }
 
+TEST(Reconstruction, RandomEditsOfFairContoursGiveWhatTheBatchGives) {
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    play(random_pool(seed, 6, seed % 2 == 0), {.fair = 0.3}, seed, edit_count(40), 2);
+    play(mask_pool(seed, 5, 0.5), {.fair = 0.4, .smooth = true}, seed, edit_count(40), 4);
+  }
+}
+
 TEST(Reconstruction, RandomEditsOfTurnedMasksGiveWhatTheBatchGives) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     std::vector<Slice> pool = mask_pool(seed, 5, 0.4);
