@@ -38,8 +38,9 @@ void add_read_options(CLI::App& sub, io::ReadOptions& options) {
                              : outline == "edges" ? io::Outline::edges
                                                   : io::Outline::fair;
          },
-         "How masks are outlined: half way between pixel centres (iso, default), or along the "
-         "pixels' edges (edges)")
+         "How masks are outlined: half way between pixel centres (iso, default), along the pixels' "
+         "edges (edges), or as smooth as can be with the same pixel centres and the same area "
+         "inside (fair)")
       ->type_name("RULE")
       ->check(CLI::IsMember({"iso", "edges", "fair"}));
   sub.add_option("--level", options.level,

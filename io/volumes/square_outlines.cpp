@@ -40,7 +40,7 @@ cdt::Point SquareOutlines::inside(std::uint32_t point, cdt::Point wanted) const 
 
 std::vector<cdt::Point> SquareOutlines::fair() const {
   constexpr Smoothing shortest{.rounds = 20, .step = 0.5, .is_even = true};
-  constexpr double area_tolerance = 1e-8;
+  constexpr double area_tolerance = 1e-7;
   const Reach reach = [this](std::uint32_t point, cdt::Point wanted) {
     return inside(point, wanted);
   };

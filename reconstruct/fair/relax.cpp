@@ -13,6 +13,8 @@ using cdt::Point;
 
 /// More rounds than areas need that can be restored.
 constexpr int most_rounds = 200;
+/// Of its area, how much a loop may be off while it is still moved.
+constexpr double area_tolerance = 1e-4;
 /// Of the size of a loop at a point, a step that shows whether that can go there.
 constexpr double trial_step = 1e-3;
 
@@ -48,27 +50,35 @@ void find_ways(const Neighbours& neighbours, std::span<const double> weights,
   }
 }
 
-/// Offsets one loop.
+/// Offsets loops.
 class Offset {
  public:
-  Offset(const OutlineNet& net, std::span<const double> areas, const Reach& reach,
+  /// `share`: of its area, how much a loop may be off.
+  Offset(const OutlineNet& net, std::span<const double> areas, const Reach& reach, double share,
          std::vector<Point>& places)
-      : net_(net), areas_(areas), reach_(reach), places_(places) {}
+      : net_(net), areas_(areas), reach_(reach), share_(share), places_(places) {}
 
-  /// One step of a loop towards its area. How much that was off before.
-  double operator()(std::size_t loop) {
-    loop_ = net_.loop(loop);
-    const double excess = signed_area(loop_, places_) - areas_[loop];
-    if (excess == 0) return 0;
-    const double length = find_ways(excess > 0 ? -1 : 1);
-    if (length == 0) return excess;
-    for (std::size_t k = 0; k < loop_.size(); ++k)
-      places_[loop_[k]] =
-          reach_(loop_[k], ahead(places_[loop_[k]], std::abs(excess) / length, ways_[k]));
-    return excess;
+  /// One step of each loop towards its area. Whether all had theirs before.
+  bool operator()() {
+    bool are_right = true;
+    for (std::size_t i = 0; i < net_.loop_count(); ++i)
+      if (!offset(i)) are_right = false;
+    return are_right;
   }
 
  private:
+  bool offset(std::size_t loop) {
+    loop_ = net_.loop(loop);
+    const double excess = signed_area(loop_, places_) - areas_[loop];
+    if (std::abs(excess) <= share_ * std::abs(areas_[loop])) return true;
+    const double length = find_ways(excess > 0 ? -1 : 1);
+    if (length == 0) return false;
+    for (std::size_t k = 0; k < loop_.size(); ++k)
+      places_[loop_[k]] =
+          reach_(loop_[k], ahead(places_[loop_[k]], std::abs(excess) / length, ways_[k]));
+    return false;
+  }
+
   /// The way of each point, outwards for sign 1, as much of it as it can go; how much area all of
   /// them sweep for each unit that they go.
   double find_ways(double sign) {
@@ -95,6 +105,7 @@ class Offset {
   const OutlineNet& net_;
   std::span<const double> areas_;
   const Reach& reach_;
+  double share_;
   std::vector<Point>& places_;
   std::span<const std::uint32_t> loop_;
   std::vector<Point> ways_;
@@ -112,24 +123,20 @@ std::vector<Point> relax(const OutlineNet& net, std::vector<Point> places,
     for (std::uint32_t v = 0; v < places.size(); ++v)
       places[v] = reach(v, ahead(places[v], share, ways[v]));
   };
-  Offset offset(net, areas, reach, places);
+  Offset offset(net, areas, reach, area_tolerance, places);
   for (unsigned round = 0; round < how.rounds; ++round) {
     go(how.step);
     if (how.back != 0) go(-how.back);
-    for (std::size_t i = 0; i < net.loop_count(); ++i) offset(i);
+    static_cast<void>(offset());
   }
   return places;
 }
 
 bool restore_areas(const OutlineNet& net, std::span<const double> areas, const Reach& reach,
                    double share, std::vector<Point>& places) {
-  Offset offset(net, areas, reach, places);
-  for (int round = 0; round < most_rounds; ++round) {
-    bool is_done = true;
-    for (std::size_t i = 0; i < net.loop_count(); ++i)
-      if (std::abs(offset(i)) > share * std::abs(areas[i])) is_done = false;
-    if (is_done) return true;
-  }
+  Offset offset(net, areas, reach, share, places);
+  for (int round = 0; round < most_rounds; ++round)
+    if (offset()) return true;
   return false;
 }
 
