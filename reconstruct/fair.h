@@ -19,8 +19,8 @@ namespace loft {
 /// depends on it alone, and neither on the order of its contours nor on where their points begin
 /// and which way they go round; nor on the number of threads.
 ///
-/// `height_tolerance`: as in Options. Precondition: coordinates and distance are admitted
-/// (mesh/admitted.h). Throws InputError as find_heights(). Cost: that of cleaning, about.
+/// `height_tolerance`: as in Options. Precondition: heights and distance are admitted
+/// (mesh/admitted.h); contours with coordinates that are not are left as they are. Throws InputError as find_heights(). Cost: that of cleaning, about.
 [[nodiscard]] std::vector<Slice> fair(std::span<const Slice> slices, double distance,
                                       double height_tolerance = 0, unsigned threads = 0);
 

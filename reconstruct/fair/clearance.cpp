@@ -2,6 +2,7 @@
 #include "reconstruct/fair/clearance.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "reconstruct/plane/nearest.h"
@@ -15,6 +16,9 @@ using cdt::Point;
 
 /// Of the half of a distance; the rest is for rounding.
 constexpr double share = 0.49;
+/// Of its longest edge, how far a point may go: more than smoothing asks for, and edges need not be
+/// compared with all others, however large the distance.
+constexpr double most_lengths = 8;
 
 /// Of edges that do not meet.
 double distance_between(const NetEdge& one, const NetEdge& other, std::span<const Point> places) {
@@ -44,7 +48,13 @@ std::uint32_t Components::of(std::uint32_t point) const {
 
 std::vector<double> clearances(std::span<const NetEdge> edges, std::span<const Point> places,
                                const Components& components, double distance) {
-  const double far = distance / share;  // beyond, nothing matters
+  std::vector<double> found(places.size());
+  for (const auto& [a, b] : edges)
+    for (const std::uint32_t end : {a, b})
+      found[end] =
+          std::max(found[end], std::hypot(places[a].x - places[b].x, places[a].y - places[b].y));
+  for (double& reach : found) reach = std::min(distance, most_lengths * reach);
+  const std::vector<double> most = found;
   const auto box_of = [&](std::uint32_t i, double around) {
     cdt::Box box;
     for (const std::uint32_t end : {edges[i].first, edges[i].second}) {
@@ -54,8 +64,8 @@ std::vector<double> clearances(std::span<const NetEdge> edges, std::span<const P
     return box;
   };
   TileGrid grid(edges.size(), [&](std::uint32_t i) { return box_of(i, 0); });
-  std::vector<double> found(places.size(), distance);
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
+    const double far = std::max(most[edges[i].first], most[edges[i].second]) / share;
     const cdt::Box box = box_of(i, far);
     double least = far;
     static_cast<void>(grid.all_of_near(box, [&](std::uint32_t k) {

@@ -23,9 +23,9 @@ class Components {
   mutable std::vector<std::uint32_t> parent_;
 };
 
-/// How far each point may move, at most `distance`, so that edges of different components cannot
+/// How far each point may move, at most `distance` and eight times its longest edge, so that edges of different components cannot
 /// meet on the way: less than half as far as its edges are from those of others.
-/// Cost: O(n) where few are nearer to each other than twice the distance.
+/// Cost: O(n) where few are nearer to each other than twice that.
 [[nodiscard]] std::vector<double> clearances(std::span<const NetEdge> edges,
                                              std::span<const cdt::Point> places,
                                              const Components& components, double distance);

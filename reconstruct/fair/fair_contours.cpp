@@ -24,6 +24,8 @@ using cdt::Point;
 constexpr double area_tolerance = 1e-4;
 /// Where points would meet something they go half as far, this often; then they stay.
 constexpr int most_halvings = 4;
+/// More rounds than it takes until nothing meets any more, mostly two or three.
+constexpr int most_rounds = 32;
 /// Of its length, what an edge keeps at least.
 constexpr double least_length = 0x1p-10;
 
@@ -37,6 +39,11 @@ Point admitted(Point p, Point from) {
 
 /// Chosen by jitter and stairs made of known shapes: the nearest to these.
 constexpr Smoothing smoothing{.rounds = 15, .step = 0.5, .back = 0.53};
+
+bool is_admitted(std::span<const Point> contour) {
+  return std::ranges::all_of(
+      contour, [](Point p) { return admitted::slice.admits(p.x) && admitted::slice.admits(p.y); });
+}
 
 /// A net on its way to being fair.
 class Fairing {
@@ -61,9 +68,10 @@ class Fairing {
 
   std::vector<Point> operator()() {
     places_ = relax(net_, net_.points, areas_, reach(), smoothing);
-    do {
+    for (int round = 0; round < most_rounds; ++round) {
       static_cast<void>(restore_areas(net_, areas_, reach(), area_tolerance / 100, places_));
-    } while (separate());
+      if (!separate()) break;
+    }
     while (give_up()) continue;
     return places_;
   }
@@ -176,13 +184,19 @@ class Fairing {
 
 std::vector<std::vector<Point>> fair(std::span<const std::span<const Point>> contours,
                                      double distance) {
-  const ContourNet net = make_net(contours);
+  std::vector<std::span<const Point>> usable;
+  for (const auto contour : contours)
+    if (is_admitted(contour)) usable.push_back(contour);
+  const ContourNet net = make_net(usable);
   std::vector<Point> places = net.net.points;
   if (distance > 0 && net.net.loop_count() > 0) places = Fairing(net, distance)();
   std::vector<std::vector<Point>> result;
-  for (const auto& numbers : net.numbers) {
-    std::vector<Point>& points = result.emplace_back();
-    for (const std::uint32_t number : numbers) points.push_back(places[number]);
+  auto numbers = net.numbers.begin();
+  for (const auto contour : contours) {
+    std::vector<Point>& points = result.emplace_back(contour.begin(), contour.end());
+    if (!is_admitted(contour)) continue;
+    for (std::size_t p = 0; p < points.size(); ++p) points[p] = places[(*numbers)[p]];
+    ++numbers;
   }
   return result;
 }

@@ -16,8 +16,8 @@ namespace loft {
 /// contours that enclose nothing. The result depends neither on the order of the contours nor on
 /// where their points begin and which way they go round.
 ///
-/// Precondition: coordinates and distance are admitted (mesh/admitted.h). Cost: O(n log n) where
-/// few edges are nearer to each other than twice the distance.
+/// Contours with coordinates that are not admitted (mesh/admitted.h) are left as they are.
+/// Precondition: the distance is. Cost: O(n log n) where few edges are near each other.
 [[nodiscard]] std::vector<std::vector<cdt::Point>> fair(
     std::span<const std::span<const cdt::Point>> contours, double distance);
 

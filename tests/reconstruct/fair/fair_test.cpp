@@ -377,6 +377,14 @@ TEST(Fair, DistancesThatAreNoneAreRefused) {
   EXPECT_THROW(static_cast<void>(reconstruct(slices, {.fair = std::nan("")})), InputError);
 }
 
+TEST(Fair, ContoursWithCoordinatesThatAreNoneAreLeftOut) {
+  Slice slice{0, {pixel_disc(5), pixel_disc(5)}};
+  slice.contours[0].points[3].x = std::nan("");
+  const Slice moved = faired(slice, 0.5);
+  EXPECT_EQ(moved.contours[1], faired({0, {pixel_disc(5)}}, 0.5).contours[0]);
+  EXPECT_EQ(moved.contours[0].points[4], slice.contours[0].points[4]);
+}
+
 TEST(Fair, ContoursAtTheEndsOfNumbersStayAdmitted) {
   for (const double size : {1e69, 1e-29}) {
     Slice slice{0, {pixel_disc(5)}};
