@@ -75,7 +75,6 @@ TEST(Fair, StairsThatWouldBeBentAreNamed) {
   EXPECT_THAT(run(folder, "reconstruct in.ndjson --smooth -o a.ply").err, HasSubstr("--fair"));
   EXPECT_THAT(run(folder, "reconstruct in.ndjson --smooth --out-of-core -o a.ply").err,
               HasSubstr("--fair"));
-  EXPECT_THAT(run(folder, "stream in.ndjson --smooth -o a.ply").err, HasSubstr("--fair"));
   for (const std::string quiet :
        {"in.ndjson", "in.ndjson --smooth --fair 1", "round.ndjson --smooth"})
     EXPECT_THAT(run(folder, "reconstruct " + quiet + " -o a.ply").err, Not(HasSubstr("stairs")));

@@ -349,7 +349,7 @@ TEST(Fair, SurfacesAreValidAndHaveTheFairPoints) {
   const auto seed = std::random_device{}();
   SCOPED_TRACE("seed " + std::to_string(seed));
   std::mt19937_64 random(seed);
-  for (int round = 0; round < 15; ++round) {
+  for (int round = 0; round < 5; ++round) {
     const std::vector<Slice> slices = jittery_stack(random, 4);
     const Options options{.fair = 0.3, .label = "even"};
     const Surface surface = reconstruct(slices, options).surface;
