@@ -41,7 +41,8 @@ Loop least_rotation(const Loop& loop) {
     same = 0;
   }
   Loop rotated = loop;
-  std::ranges::rotate(rotated, rotated.begin() + static_cast<std::ptrdiff_t>(std::min(i, k)));
+  std::rotate(rotated.begin(), rotated.begin() + static_cast<std::ptrdiff_t>(std::min(i, k)),
+              rotated.end());
   return rotated;
 }
 

@@ -243,7 +243,7 @@ TEST(Fair, DependsNeitherOnOrderNorOnDirectionNorOnTheFirstPoint) {
       const auto begin = static_cast<std::ptrdiff_t>(random() % slice.contours[i].points.size());
       for (auto [from, to] : {std::pair(&slice, &turned), std::pair(&moved, &expected)}) {
         Contour& contour = to->contours.emplace_back(from->contours[i]);
-        std::ranges::rotate(contour.points, contour.points.begin() + begin);
+        std::rotate(contour.points.begin(), contour.points.begin() + begin, contour.points.end());
         if (is_reversed) std::ranges::reverse(contour.points);
       }
     }
