@@ -90,9 +90,9 @@ TEST(FairOutlines, EncloseAsMuchAsTheirPixels) {
 
 TEST(FairOutlines, OfPixelsThatAreAloneAndOfThinPartsKeepAllOfThem) {
   std::vector<double> pixels(100);
-  pixels[11] = 1;                                                  // alone
-  for (const int i : {31, 32, 33, 34, 44, 54, 64}) pixels[i] = 2;  // one pixel wide
-  for (const int i : {17, 28}) pixels[i] = 3;                      // they meet in a corner
+  pixels[11] = 1;                                                                 // alone
+  for (const std::size_t i : {31U, 32U, 33U, 34U, 44U, 54U, 64U}) pixels[i] = 2;  // one pixel wide
+  for (const std::size_t i : {17U, 28U}) pixels[i] = 3;  // they meet in a corner
   const Slice slice = fair_slice(10, 10, pixels);
   EXPECT_NEAR(area(slice, "1"), 1, 1e-6);
   EXPECT_NEAR(area(slice, "2"), 7, 1e-6);
