@@ -67,9 +67,8 @@ struct SkippedLabel {
 ///                          max_edge, target_edge, simplify if given
 ///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
-///     seconds              of each stage that there is: read, fair, clean, tile, smooth, refine,
-///     sew,
-///                          simplify, write, total
+///     seconds              of each stage that there is: read, fair, clean, tile, smooth,
+///                          refine, sew, simplify, write, total
 ///     skipped              labels without a surface: label, message
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, slab_volume, angles, seconds,
