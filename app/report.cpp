@@ -117,6 +117,7 @@ std::vector<std::pair<std::string, double>> lengths(const Options& options) {
   const auto add = [&](const char* name, const std::optional<double>& length) {
     if (length) result.emplace_back(name, *length);
   };
+  add("fair", options.fair);
   add("max_edge", options.max_edge);
   add("target_edge", options.target_edge);
   add("simplify", options.simplify);

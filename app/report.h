@@ -46,6 +46,12 @@ void add_sizes(std::map<std::string, StackSize>& of_labels, const Slice& slice);
 /// `smallest angles: least 1.2, 5th percentile 12.3, median 34.5 degrees; worst aspect 56.7`
 [[nodiscard]] std::string describe(const Angles& angles);
 
+/// The warning that stairs are bent from slice to slice, and the ways out.
+inline constexpr const char* stairs_are_bent =
+    "the contours are stairs, as outlines along pixels are, and --smooth bends every step; smooth "
+    "them in their slices with --fair DISTANCE, half a pixel or a little more, or draw outlines of "
+    "label volumes with --outline fair or iso";
+
 /// The options that are lengths, as far as set, by their names in files and reports.
 [[nodiscard]] std::vector<std::pair<std::string, double>> lengths(const Options& options);
 

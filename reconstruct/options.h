@@ -78,6 +78,10 @@ struct Options {
   /// (find_heights()), for parts whose heights differ by rounding. 0: only those of the same
   /// height. Needs the whole stack: not for Reconstruction.
   double height_tolerance = 0;
+  /// Smooths jitter and stairs of contours in their slices first, moving no point by more than
+  /// that: see reconstruct/fair.h. Those of all labels at a height are looked at together. Not set
+  /// or 0: contours stay as they are.
+  std::optional<double> fair = {};
   Cap cap = Cap::flat;
   /// How thick a slice is for Cap::extend, where there is only one.
   std::optional<double> gap = {};

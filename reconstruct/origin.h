@@ -7,7 +7,7 @@ namespace loft {
 
 /// How a vertex of the surface came about.
 enum class VertexKind : std::uint8_t {
-  contour,   ///< a point of an input contour, unchanged
+  contour,   ///< a point of an input contour, unchanged but for Options::fair
   cleaning,  ///< made in a slice by cleaning: where contours of that slice cross
   crossing,  ///< where contour edges of two neighbouring slices cross in projection
   steiner,   ///< added between two slices: in forks and ends, and where the surface bends

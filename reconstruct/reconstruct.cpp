@@ -15,6 +15,7 @@
 #include "reconstruct/clean/heights.h"
 #include "reconstruct/clean/lines.h"
 #include "reconstruct/clean/region.h"
+#include "reconstruct/fair.h"
 #include "reconstruct/link/linking.h"
 #include "reconstruct/link/tips.h"
 #include "reconstruct/out_of_core.h"
@@ -274,12 +275,21 @@ Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean
   return result;
 }
 
+Options without_fair(const Options& options) {
+  Options rest = options;
+  rest.fair = {};
+  return rest;
+}
+
 }  // namespace
 
 Reconstructed reconstruct(std::span<const Slice> slices, const Options& options,
                           const Progress& progress) {
   require_usable(options);
   if (auto fatal = find_all_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  if (options.fair)
+    return reconstruct(fair(slices, *options.fair, options.height_tolerance, options.threads),
+                       without_fair(options), progress);
   OneLabel one_label(options.label);
   for (const Slice& slice : slices) one_label.add(slice);
   const auto clean_height = [&](const Height& height, std::vector<Defect>& repairs,
@@ -296,6 +306,9 @@ Reconstructed reconstruct(std::span<const Slice> slices, const ContoursByLabel& 
   assert(options.label);
   require_usable(options);
   if (!contours.unusable().empty()) throw InputError(contours.unusable());
+  if (options.fair)
+    return reconstruct(fair(slices, *options.fair, options.height_tolerance, options.threads),
+                       contours, without_fair(options), progress);
   const std::span<const ContourId> wanted = contours.of(*options.label);
   const auto clean_height = [&](const Height& height, std::vector<Defect>& repairs,
                                 cdt::Triangulation& memory) {
@@ -320,6 +333,13 @@ Options options_for(const Stack& stack, const Options& options) {
 }  // namespace
 
 Reconstructed reconstruct(const Stack& stack, const Options& options, const Progress& progress) {
+  if (options.fair) {
+    require_usable(options);
+    if (auto fatal = find_unusable(stack.slices); !fatal.empty())
+      throw InputError(std::move(fatal));
+    return reconstruct(fair(stack, *options.fair, options.height_tolerance, options.threads),
+                       without_fair(options), progress);
+  }
   Reconstructed made = reconstruct(stack.slices, options_for(stack, options), progress);
   place_in_world(stack, made.surface, made.repairs);
   return made;
@@ -327,6 +347,12 @@ Reconstructed reconstruct(const Stack& stack, const Options& options, const Prog
 
 Reconstructed reconstruct(const Stack& stack, const ContoursByLabel& contours,
                           const Options& options, const Progress& progress) {
+  if (options.fair) {
+    require_usable(options);
+    if (!contours.unusable().empty()) throw InputError(contours.unusable());
+    return reconstruct(fair(stack, *options.fair, options.height_tolerance, options.threads),
+                       contours, without_fair(options), progress);
+  }
   Reconstructed made = reconstruct(stack.slices, contours, options_for(stack, options), progress);
   place_in_world(stack, made.surface, made.repairs);
   return made;

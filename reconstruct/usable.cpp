@@ -74,6 +74,7 @@ void OneLabel::add(const std::string& label) {
 void require_usable(const Options& options) {
   std::string problems;
   note_length("keyhole_width", options.keyhole_width, problems);
+  note_length("fair", options.fair, problems);
   note_length("max_edge", options.max_edge, problems);
   note_length("target_edge", options.target_edge, problems);
   note_length("simplify", options.simplify, problems);

@@ -18,14 +18,15 @@ mesh          mesh/*                         cdt
 values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,origin,parallel,progress,slice,stack,surface,usable}  mesh
 moved         reconstruct/{check,measure,mesh}                                    values
 plane         reconstruct/plane/*            values
-clean         reconstruct/clean/*            plane
+fair          reconstruct/fair/*             plane
+clean         reconstruct/clean/*            fair
 tile          reconstruct/tile/*             clean
 registration  reconstruct/registration/*     tile
 link          reconstruct/link/*             registration
 sew           reconstruct/sew/*              tile
 shape         reconstruct/shape/*            link sew
 live          reconstruct/live/*             shape
-reconstruct   reconstruct/{reconstruct,out_of_core,reconstruction,world}                live
+reconstruct   reconstruct/{reconstruct,fair,out_of_core,reconstruction,world}                live
 
 io-values     io/{unit,version}              reconstruct
 bytes         io/bytes/*                     io-values

@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cstdint>
 
+#include "app/report.h"
 #include "cdt/effort.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/fair/stairs.h"
 #include "reconstruct/number_text.h"
 #include "reconstruct/usable.h"
 
@@ -43,10 +45,21 @@ LabelledSurfaces::Exchange LabelledSurfaces::apply(const io::Edit& edit, NetChan
     add_labels(edit.slice, change);
   }
   put(exchange, change);
+  warn_of_stairs(edit.slice, change);
   if (edit.kind == io::Edit::Kind::insert && exchange.before != nullptr)
     change.note("slice at z = " + exact(z) +
                 ": came at a height where there was a slice already; merged with it");
   return exchange;
+}
+
+/// Once is enough.
+void LabelledSurfaces::warn_of_stairs(const Slice& slice, NetChange& change) {
+  if (!options_.smooth || options_.fair || has_warned_) return;
+  Stairs stairs;
+  stairs.add(slice);
+  if (!stairs.are_there()) return;
+  change.note("slice at z = " + exact(slice.z) + ": " + stairs_are_bent);
+  has_warned_ = true;
 }
 
 void LabelledSurfaces::take_back(const Exchange& exchange, NetChange& change) {

@@ -57,10 +57,12 @@ class LabelledSurfaces {
 
  private:
   void put(const Exchange& exchange, NetChange& change);
+  void warn_of_stairs(const Slice& slice, NetChange& change);
 
   Options options_;
   io::StackState stack_;
   std::vector<Part> parts_;
+  bool has_warned_ = false;  // of stairs
 };
 
 }  // namespace loft::app

@@ -80,10 +80,12 @@ void print_verdict(const std::string& name, const Verdict& verdict) {
   }
 }
 
-void print_fidelity(const std::string& name, const Fidelity& fidelity, bool is_exact_format) {
+void print_fidelity(const CheckCommand& command, const Fidelity& fidelity, bool is_exact_format) {
+  const std::string name = command.stack->string();
   if (fidelity.is_complete()) {
     std::cout << name << ": all " << grouped(fidelity.vertices) << " contour vertices and "
-              << grouped(fidelity.edges) << " contour edges are in the mesh, exactly\n";
+              << grouped(fidelity.edges) << " contour edges are in the mesh, "
+              << (command.within > 0 ? "within " + rounded(command.within) : "exactly") << '\n';
     return;
   }
   std::cout << name << ": not in the mesh: " << grouped(fidelity.missing_vertices) << " of "
@@ -97,8 +99,8 @@ void print_fidelity(const std::string& name, const Fidelity& fidelity, bool is_e
 
 /// The object that `loft check --json` prints: schema "loft-check", schema_version 1, mesh, valid,
 /// parts (label, valid, counts and measures, touching: points and edges, faults by name), stack
-/// (name, counts); of faults of which there may be more, more_faults is true. Faces that cross are
-/// the fault self_intersection; touching is none.
+/// (name, within, counts); of faults of which there may be more, more_faults is true. Faces that
+/// cross are the fault self_intersection; touching is none.
 void add_verdicts(Json& json, const CheckCommand& command, const std::vector<Verdict>& verdicts,
                   const std::optional<Fidelity>& fidelity) {
   json["valid"] = std::ranges::all_of(verdicts, [](const Verdict& v) { return v.faults.empty(); });
@@ -117,10 +119,13 @@ void add_verdicts(Json& json, const CheckCommand& command, const std::vector<Ver
     json["parts"].push_back(std::move(part));
   }
   if (!fidelity) return;
-  json["stack"] = {
-      {"name", command.stack->string()}, {"complete", fidelity->is_complete()},
-      {"vertices", fidelity->vertices},  {"missing_vertices", fidelity->missing_vertices},
-      {"edges", fidelity->edges},        {"missing_edges", fidelity->missing_edges}};
+  json["stack"] = {{"name", command.stack->string()},
+                   {"within", command.within},
+                   {"complete", fidelity->is_complete()},
+                   {"vertices", fidelity->vertices},
+                   {"missing_vertices", fidelity->missing_vertices},
+                   {"edges", fidelity->edges},
+                   {"missing_edges", fidelity->missing_edges}};
 }
 
 }  // namespace
@@ -131,7 +136,7 @@ ExitCode check_file(const CheckCommand& command, const std::filesystem::path& fi
                     const Stack& stack, Json& json) {
   const std::vector<io::LabelledMesh> meshes = io::read_meshes(file);
   std::optional<Fidelity> fidelity;
-  if (command.stack) fidelity = compare(stack, meshes);
+  if (command.stack) fidelity = compare(stack, meshes, command.within);
   const std::vector<Verdict> verdicts = judge(meshes);
 
   if (command.json) {
@@ -139,7 +144,7 @@ ExitCode check_file(const CheckCommand& command, const std::filesystem::path& fi
   } else {
     for (const Verdict& verdict : verdicts) print_verdict(file.string(), verdict);
     if (fidelity) {
-      print_fidelity(command.stack->string(), *fidelity, io::keeps_coordinates(file));
+      print_fidelity(command, *fidelity, io::keeps_coordinates(file));
     }
   }
   const bool is_valid =
@@ -152,7 +157,7 @@ ExitCode check_file(const CheckCommand& command, const std::filesystem::path& fi
 
 ExitCode run(const CheckCommand& command) {
   Stack stack;
-  if (command.stack) stack = io::read_stack(*command.stack);
+  if (command.stack) stack = io::read_stack(*command.stack, command.read);
   EachFile each("loft-check", "mesh", command.json);
   return each.run(command.meshes, [&](const std::filesystem::path& file, Json& json) {
     return check_file(command, file, stack, json);

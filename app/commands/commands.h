@@ -49,6 +49,8 @@ struct TriangulateCommand {
 struct CheckCommand {
   std::vector<std::filesystem::path> meshes;
   std::optional<std::filesystem::path> stack;
+  io::ReadOptions read;
+  double within = 0;  ///< how far contour vertices may have been moved
   bool json = false;
 };
 
@@ -67,6 +69,7 @@ struct ConvertCommand {
   io::ReadOptions read = {.unlabelled = io::Unlabelled::label_by_file};
   std::vector<std::string> only;
   std::vector<std::string> except;
+  std::optional<double> fair;  ///< as Options::fair
   bool quiet = false;
 };
 

@@ -2,6 +2,7 @@
 #include "app/commands/fidelity.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
@@ -79,6 +80,44 @@ bool has_contour_edge(const PlacesAndEdges& mesh, const Vec3& a, const Vec3& b) 
   return mesh.has_edge(a, middle) && mesh.has_edge(middle, b);
 }
 
+/// The vertices of a mesh near places in slices, by height first.
+class NearPlaces {
+ public:
+  /// `slack`: how much heights may differ.
+  NearPlaces(std::span<const io::LabelledMesh> meshes, double distance, double slack)
+      : distance_(distance), slack_(slack) {
+    for (const auto& [label, mesh] : meshes)
+      std::ranges::copy_if(mesh.points, std::back_inserter(places_), is_finite);
+    std::ranges::sort(places_, {}, by_height);
+    places_.erase(std::unique(places_.begin(), places_.end()), places_.end());
+  }
+
+  [[nodiscard]] std::vector<Vec3> of(const Vec3& place) const {
+    std::vector<Vec3> near;
+    auto next = std::ranges::lower_bound(
+        places_, std::array{place[2] - slack_, place[0] - distance_, place[1] - distance_}, {},
+        by_height);
+    for (; next != places_.end() && (*next)[2] <= place[2] + slack_; ++next) {
+      if (slack_ == 0 && (*next)[0] > place[0] + distance_) break;
+      if (std::hypot((*next)[0] - place[0], (*next)[1] - place[1], (*next)[2] - place[2]) <=
+          (1 + rounding) * distance_)
+        near.push_back(*next);
+    }
+    return near;
+  }
+
+ private:
+  static constexpr double rounding = 1e-9;  ///< of coordinates, in distances
+
+  static std::array<double, 3> by_height(const Vec3& place) {
+    return {place[2], place[0], place[1]};
+  }
+
+  std::vector<Vec3> places_;
+  double distance_;
+  double slack_;
+};
+
 /// Whether a contour encloses nothing because its points are all in one line (exact).
 bool is_flat(std::span<const cdt::Point> points) {
   const auto other = std::ranges::find_if(points, [&](cdt::Point p) { return p != points[0]; });
@@ -93,9 +132,22 @@ std::string place(std::size_t slice, double z, std::size_t contour, std::size_t 
 
 }  // namespace
 
-Fidelity compare(const Stack& whole, std::span<const io::LabelledMesh> meshes) {
+Fidelity compare(const Stack& whole, std::span<const io::LabelledMesh> meshes, double within) {
   const std::vector<Slice>& stack = whole.slices;
   const PlacesAndEdges mesh(meshes);
+  std::optional<NearPlaces> near;
+  if (within > 0) near.emplace(meshes, within, whole.frame ? within : 0);
+  const auto places_of = [&](const Vec3& place) {
+    if (near) return near->of(place);
+    return mesh.find(place) ? std::vector{place} : std::vector<Vec3>();
+  };
+  const auto is_joined = [&](const Vec3& a, const Vec3& b) {
+    const std::vector<Vec3> to = places_of(b);
+    return std::ranges::any_of(places_of(a), [&](const Vec3& from) {
+      return std::ranges::any_of(
+          to, [&](const Vec3& other) { return has_contour_edge(mesh, from, other); });
+    });
+  };
   Fidelity result;
   const auto note = [&](bool is_there, std::size_t& count, std::size_t& missing, auto... where) {
     ++count;
@@ -116,11 +168,10 @@ Fidelity compare(const Stack& whole, std::span<const io::LabelledMesh> meshes) {
                               static_cast<std::uint32_t>(c), point});
         };
         const Vec3 here = in_world(static_cast<std::uint32_t>(p));
-        const bool is_there = mesh.find(here).has_value();
+        const bool is_there = !places_of(here).empty();
         note(is_there, result.vertices, result.missing_vertices, s, z, c, p);
         if (points[p] == points[next]) continue;
-        const bool is_joined = has_contour_edge(mesh, here, in_world(next));
-        note(is_joined, result.edges, result.missing_edges, s, z, c, p);
+        note(is_joined(here, in_world(next)), result.edges, result.missing_edges, s, z, c, p);
       }
     }
   }

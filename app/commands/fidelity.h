@@ -26,7 +26,10 @@ struct Fidelity {
 /// Looks up every contour vertex (the same coordinates in the world, bit for bit) and every contour
 /// edge (an edge of the mesh between those vertices, or two with its midpoint) in all the meshes
 /// together. Contours whose points are all in one line and edges without length do not count: no
-/// surface can keep them. Cost: O(n log n).
-[[nodiscard]] Fidelity compare(const Stack& stack, std::span<const io::LabelledMesh> meshes);
+/// surface can keep them. With `within` above 0 a vertex of the mesh counts for every contour
+/// vertex that is no farther from it, at the same height where slices are level; an edge counts for
+/// those between any two such vertices. Cost: O(n log n), with the number of vertices within.
+[[nodiscard]] Fidelity compare(const Stack& stack, std::span<const io::LabelledMesh> meshes,
+                               double within = 0);
 
 }  // namespace loft::app

@@ -17,6 +17,7 @@
 #include "io/bytes/file.h"
 #include "io/meshes/ply_pieces.h"
 #include "io/stack_file.h"
+#include "reconstruct/fair/stairs.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/world.h"
@@ -55,9 +56,11 @@ class Overview {
     ++total_.slices;
     total_.contours += slice.contours.size();
     for (const Contour& contour : slice.contours) total_.vertices += contour.points.size();
+    stairs_.add(slice);
     add_sizes(labels_, slice);
   }
 
+  [[nodiscard]] bool has_stairs() const { return stairs_.are_there(); }
   [[nodiscard]] const StackSize& total() const { return total_; }
   [[nodiscard]] const std::vector<Defect>& unusable() const { return unusable_; }
   [[nodiscard]] std::vector<std::string> labels() const {
@@ -74,6 +77,7 @@ class Overview {
  private:
   StackSize total_;
   std::map<std::string, StackSize> labels_;
+  Stairs stairs_;
   std::vector<Defect> unusable_;
 };
 
@@ -124,6 +128,8 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
     throw InputError(
         with_place(InputError(overview.unusable()).what(), place_of(command, Options())));
   take_over(stack.about(), command, terminal);
+  if (overview.has_stairs() && command.options.smooth && !command.options.fair)
+    terminal.warn(stairs_are_bent);
   report.input = overview.total();
   report.seconds["read"] = stopwatch.lap();
 
@@ -131,7 +137,9 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
       LabelChoice(command.only, command.except).chosen(overview.labels());
   const bool is_labelled = names.size() > 1 || !names[0].empty();
   io::PlyPieces output(command.outputs[0], names);
-  WorldSink in_world(stack.about(), output);
+  Stack about = stack.about();
+  if (command.options.fair) about.slices.clear();  // points have moved from places in the file
+  WorldSink in_world(about, output);
   LabelProblems problems(command);
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;

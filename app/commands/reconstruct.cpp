@@ -27,7 +27,10 @@
 #include "io/surfaces.h"
 #include "io/unit.h"
 #include "mesh/measure.h"
+#include "reconstruct/fair.h"
+#include "reconstruct/fair/stairs.h"
 #include "reconstruct/number_text.h"
+#include "reconstruct/usable.h"
 
 namespace loft::app {
 
@@ -224,15 +227,37 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
     terminal.say("wrote " + output.string() + (is_per_label(output) ? ", a file a label" : ""));
 }
 
+/// Contours of a stack that are bent without being made fair.
+void warn_of_stairs(const ReconstructCommand& command, const Stack& stack, Terminal& terminal) {
+  if (!command.options.smooth || command.options.fair) return;
+  Stairs stairs;
+  for (const Slice& slice : stack.slices) stairs.add(slice);
+  if (stairs.are_there()) terminal.warn(stairs_are_bent);
+}
+
+/// Once, not for each label.
+void make_fair(Stack& stack, Options& options) {
+  require_usable(options);
+  if (const auto unusable = ContoursByLabel(stack.slices).unusable(); !unusable.empty())
+    throw InputError(unusable);
+  stack = fair(stack, *options.fair, options.height_tolerance, options.threads);
+  options.fair = {};
+}
+
 void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
-  const Stack stack = io::read_stack(command.inputs, command.read);
+  Stack stack = io::read_stack(command.inputs, command.read);
   take_over(stack, command, terminal);
   report.input = size_of(stack.slices);
   report.input.slices = stack.slices.size();
   report.seconds["read"] = stopwatch.lap();
 
   Options options = command.options;
+  warn_of_stairs(command, stack, terminal);
+  if (options.fair) {
+    make_fair(stack, options);
+    report.seconds["fair"] = stopwatch.lap();
+  }
   if (command.links) options.links = io::read_links_json(*command.links, stack.slices);
   options.reports_slabs = command.json && command.slabs;
   std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);

@@ -63,12 +63,12 @@ struct SkippedLabel {
 ///     inputs, outputs      file names
 ///     options              fill, keyhole_width (null: by default), tolerance,
 ///                          height_tolerance, cap, link, max_shift (null: by
-///                          size), links (file or null), smooth, metres_per_unit; max_edge,
-///                          target_edge, simplify if given
+///                          size), links (file or null), smooth, metres_per_unit; fair,
+///                          max_edge, target_edge, simplify if given
 ///     out_of_core          whether the stack stayed in its files
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
-///     seconds              of each stage that there is: read, clean, tile, smooth, refine, sew,
-///                          simplify, write, total
+///     seconds              of each stage that there is: read, fair, clean, tile, smooth,
+///                          refine, sew, simplify, write, total
 ///     skipped              labels without a surface: label, message
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
 ///                          components, genus, area, volume, slab_volume, angles, seconds,

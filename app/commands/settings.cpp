@@ -39,6 +39,7 @@ void set(StreamCommand& command, const std::string& key, const std::string& valu
   if (key == "keyhole_width") set_length(options.keyhole_width, value);
   if (key == "tolerance") options.tolerance = number(value);
   if (key == "max_shift") set_length(options.max_shift, value);
+  if (key == "fair") set_length(options.fair, value);
   if (key == "max_edge") set_length(options.max_edge, value);
   if (key == "target_edge") set_length(options.target_edge, value);
 }

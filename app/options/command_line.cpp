@@ -148,6 +148,8 @@ CLI::App* add_convert(CLI::App& app, ConvertCommand& command) {
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   add_label_options(*sub, command.only, command.except);
   add_read_options(*sub, command.read);
+  begin_group(*sub, "Slices");
+  add_fair_option(*sub, command.fair);
   sub->footer(
       "Examples:\n"
       "  The lungs of a plan, with all that the file says of them\n"
@@ -363,11 +365,18 @@ CLI::App* add_check(CLI::App& app, CheckCommand& command) {
   sub->add_option("--stack", command.stack,
                   "Also: is every contour vertex and edge of this stack in each mesh, exactly?")
       ->type_name("FILE");
+  sub->add_option("--within", command.within,
+                  "Contour vertices may have been moved in their slices by at most that, as "
+                  "reconstruct --fair does; default 0: exactly")
+      ->type_name("DISTANCE")
+      ->check(CLI::Validator(complain_of_distance, ""));
   sub->add_flag("--json", command.json, "Print the result as one JSON object; a list of several");
+  add_read_options(*sub, command.read);
   sub->footer(
       "Examples:\n"
       "  loft check part.stl\n"
-      "  loft check skull.ply --stack skull.ndjson");
+      "  loft check skull.ply --stack skull.ndjson\n"
+      "  loft check faired.ply --stack traced.ndjson --within 0.2");
   return sub;
 }
 
@@ -413,8 +422,8 @@ CLI::App* add_man(CLI::App& app) {
 
 /// Notes which of a session's settings the command line names, and what makes no sense in it.
 void look_at_options(const CLI::App& sub, StreamCommand& command) {
-  for (const char* setting :
-       {"fill", "keyhole_width", "cap", "link", "max_shift", "smooth", "tolerance", "unit"}) {
+  for (const char* setting : {"fill", "keyhole_width", "cap", "link", "max_shift", "smooth",
+                              "tolerance", "unit", "fair"}) {
     std::string option = std::string("--") + setting;
     std::ranges::replace(option, '_', '-');
     if (sub.count(option) > 0) command.given.insert(setting);

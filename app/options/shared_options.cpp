@@ -34,12 +34,15 @@ void add_read_options(CLI::App& sub, io::ReadOptions& options) {
   sub.add_option_function<std::string>(
          "--outline",
          [&options](const std::string& outline) {
-           options.outline = outline == "iso" ? io::Outline::iso_lines : io::Outline::edges;
+           options.outline = outline == "iso"     ? io::Outline::iso_lines
+                             : outline == "edges" ? io::Outline::edges
+                                                  : io::Outline::fair;
          },
-         "How masks are outlined: half way between pixel centres (iso, default), or along the "
-         "pixels' edges (edges)")
+         "How masks are outlined: half way between pixel centres (iso, default), along the pixels' "
+         "edges (edges), or as smooth as can be with the same pixel centres and the same area "
+         "inside (fair)")
       ->type_name("RULE")
-      ->check(CLI::IsMember({"iso", "edges"}));
+      ->check(CLI::IsMember({"iso", "edges", "fair"}));
   sub.add_option("--level", options.level,
                  "Value that pixels of grey have inside at least (otherwise each value is a label, "
                  "or from 0.5 on where they are shares of 1)")
@@ -85,6 +88,7 @@ void add_slice_options(CLI::App& sub, Options& options, std::optional<Fill>* giv
          "of its width are one (default 1e-7; 0: only equal ones)")
       ->type_name("SHARE")
       ->check(CLI::Range(0.0, 0.01));
+  add_fair_option(sub, options.fair);
   sub.add_option_function<std::string>(
          "--cap",
          [&options](const std::string& cap) {
@@ -100,6 +104,15 @@ void add_slice_options(CLI::App& sub, Options& options, std::optional<Fill>* giv
       ->type_name("CAP")
       ->check(given_fill == nullptr ? CLI::IsMember({"flat", "dome", "open"})
                                     : CLI::IsMember({"flat", "dome", "open", "extend"}));
+}
+
+void add_fair_option(CLI::App& sub, std::optional<double>& distance) {
+  sub.add_option(
+         "--fair", distance,
+         "Smooth jitter and stairs of contours in their slices: move their points by at most "
+         "that, in the unit of the input; areas stay, and nothing meets that did not")
+      ->type_name("DISTANCE")
+      ->check(CLI::Validator(complain_of_distance, ""));
 }
 
 void add_slab_options(CLI::App& sub, Options& options) {

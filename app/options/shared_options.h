@@ -22,6 +22,8 @@ void add_read_options(CLI::App& sub, io::ReadOptions& options);
 /// What is inside, and how the ends are closed. `given_fill`: set where the command line has a
 /// rule; null for streams, which cannot extend their ends.
 void add_slice_options(CLI::App& sub, Options& options, std::optional<Fill>* given_fill = nullptr);
+/// How far contours may be moved to be smooth.
+void add_fair_option(CLI::App& sub, std::optional<double>& distance);
 /// How the surface goes from slice to slice.
 void add_slab_options(CLI::App& sub, Options& options);
 /// Smaller or fewer triangles.

@@ -19,6 +19,7 @@ enum class Unlabelled {
 enum class Outline {
   iso_lines,  ///< half way between pixel centres in and out; by value where pixels have shares
   edges,      ///< along the pixels' edges
+  fair,       ///< as short as can be with the pixels' centres and their area inside
 };
 
 /// What becomes of lines that end at the border of the data.

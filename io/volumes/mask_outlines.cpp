@@ -14,6 +14,21 @@ constexpr std::uint32_t none = ~std::uint32_t{0};
 constexpr std::uint32_t is_cut = std::uint32_t{1} << 31;
 
 constexpr bool is_above(std::uint32_t crossing) { return (crossing & 2) != 0; }
+constexpr bool is_second(std::uint32_t crossing) { return (crossing & 1) != 0; }
+
+/// Of labels around a square, whether two of the same that are opposite of each other are cut off
+/// there, the one at that corner and the one opposite; none: lines meet in one point, if at all.
+/// Others go through between them: the smaller label, and what is outside of all.
+std::optional<std::size_t> cut_corner(const std::array<std::uint32_t, 4>& corners) {
+  const bool is_first = corners[0] == corners[2];
+  const bool is_second = corners[1] == corners[3];
+  const auto differs = [&](std::size_t corner) {
+    return corners[corner] != corners[corner + 1] && corners[corner] != corners[(corner + 3) % 4];
+  };
+  if (is_first && differs(0)) return corners[0] < corners[1] && (is_second || corners[0] == 0);
+  if (is_second && differs(1)) return corners[1] == 0 ? 0 : 1;
+  return {};
+}
 
 }  // namespace
 
@@ -47,6 +62,7 @@ std::vector<PixelOutline> MaskOutlines::trace(std::span<const double> values,
       if (low[x] != low[x + 1] || low[x] != high[x] || low[x] != high[x + 1])
         cross_cell(y * width_ + x);
   }
+  if (outline_ == Outline::fair) return trace_fair();
   std::vector<PixelOutline> outlines;
   for (const Start& start : starts_) {
     if (next_[start.crossing] == none) continue;  // on an outline already
@@ -61,8 +77,7 @@ std::vector<PixelOutline> MaskOutlines::trace(std::span<const double> values,
 /// the left, is cut off from where it is left back to where it is entered. Corners of a label that
 /// are opposite of each other are two runs.
 void MaskOutlines::cross_cell(std::size_t place) {
-  const std::array corners{labels_[place], labels_[place + 1], labels_[place + width_ + 1],
-                           labels_[place + width_]};
+  const std::array corners = this->corners(place);
   const auto crossing = [](std::size_t pixel, std::uint32_t above, std::uint32_t second) {
     return static_cast<Crossing>(4 * pixel + 2 * above + second);
   };
@@ -71,15 +86,70 @@ void MaskOutlines::cross_cell(std::size_t place) {
                          crossing(place + width_, 0, 1), crossing(place, 1, 1)};
   const std::array enter{crossing(place, 0, 1), crossing(place + 1, 1, 1),
                          crossing(place + width_, 0, 0), crossing(place, 1, 0)};
+  const auto cut = outline_ == Outline::fair ? cut_corner(corners) : std::nullopt;
   for (std::size_t first = 0; first < 4; ++first) {
     const std::uint32_t label = corners[first];
     if (label == 0 || label == corners[(first + 3) % 4]) continue;
     std::size_t last = first;
     while (corners[(last + 1) % 4] == label) last = (last + 1) % 4;
+    if (cut && first % 2 != *cut && corners[(first + 2) % 4] == label) {  // goes through
+      next_[leave[first]] = enter[(first + 1) % 4];
+      starts_.push_back({leave[first], label});
+      continue;
+    }
     const bool meets = last == first && corners[(first + 2) % 4] == label;
-    next_[leave[last]] = enter[(first + 3) % 4] | (meets ? is_cut : 0);
+    next_[leave[last]] =
+        enter[(first + 3) % 4] | (meets && outline_ == Outline::edges ? is_cut : 0);
     starts_.push_back({leave[last], label});
   }
+}
+
+std::array<std::uint32_t, 4> MaskOutlines::corners(std::size_t place) const {
+  return {labels_[place], labels_[place + 1], labels_[place + width_ + 1], labels_[place + width_]};
+}
+
+std::vector<PixelOutline> MaskOutlines::trace_fair() {
+  SquareOutlines squares;
+  std::vector<PixelOutline> outlines;
+  for (const Start& start : starts_) {
+    if (next_[start.crossing] == none) continue;  // on an outline already
+    add_squares(take_loop(start.crossing), squares);
+    outlines.push_back({start.label, {}});
+  }
+  const std::vector<cdt::Point> places = squares.fair();
+  for (std::size_t i = 0; i < outlines.size(); ++i)
+    for (const std::uint32_t point : squares.net().loop(i))
+      outlines[i].points.push_back(places[point]);
+  return outlines;
+}
+
+/// The squares that an outline goes through.
+void MaskOutlines::add_squares(std::span<const Crossing> loop, SquareOutlines& squares) const {
+  using Half = SquareOutlines::Half;
+  constexpr std::array halves{Half::lower_left, Half::lower_right, Half::upper_right,
+                              Half::upper_left};
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Crossing from = loop[i];
+    const Crossing to = loop[(i + 1) % loop.size()];
+    // The sides are those that the square was entered and left by in cross_cell().
+    const std::size_t from_side =
+        is_above(from) ? (is_second(from) ? 3 : 1) : (is_second(from) ? 2 : 0);
+    const std::size_t to_side = is_above(to) ? (is_second(to) ? 1 : 3) : (is_second(to) ? 0 : 2);
+    const std::size_t place = from / 4 - (from_side == 1 ? 1 : 0) - (from_side == 2 ? width_ : 0);
+    const auto x = static_cast<std::uint32_t>(place % width_);
+    const auto y = static_cast<std::uint32_t>(place / width_);
+    const auto cut = cut_corner(corners(place));
+    if (!cut) {
+      squares.add(x, y, Half::none);
+      continue;
+    }
+    const auto corner_at = [&](std::size_t side) {
+      return side % 2 == *cut ? side : (side + 1) % 4;
+    };
+    squares.add(x, y, halves[corner_at(from_side)]);
+    if (corner_at(from_side) != corner_at(to_side)) squares.add(x, y, halves[corner_at(to_side)]);
+  }
+  squares.end_outline();
 }
 
 /// The crossings of an outline, each marked if the corner before the next is cut off. Nobody else

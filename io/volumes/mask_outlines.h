@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -8,6 +9,7 @@
 
 #include "cdt/point.h"
 #include "io/stacks/read_options.h"
+#include "io/volumes/square_outlines.h"
 
 namespace loft::io {
 
@@ -47,6 +49,9 @@ class MaskOutlines {
 
   void cross_cell(std::size_t place);
   [[nodiscard]] std::vector<Crossing> take_loop(Crossing start);
+  [[nodiscard]] std::vector<PixelOutline> trace_fair();
+  void add_squares(std::span<const Crossing> loop, SquareOutlines& squares) const;
+  [[nodiscard]] std::array<std::uint32_t, 4> corners(std::size_t place) const;
   /// Of a pixel of the padded image, in the image.
   [[nodiscard]] cdt::Point centre(std::size_t pixel) const;
   [[nodiscard]] cdt::Point iso_point(Crossing crossing) const;

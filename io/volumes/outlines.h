@@ -22,6 +22,15 @@ namespace loft::io {
 /// opposite directions; iso-lines of three labels that meet between four centres leave a gap there,
 /// of at most half a pixel.
 ///
+/// Fair outlines have a point in each square between four pixel centres that they go through, and
+/// keep it 1/64 of a pixel or more inside, so that no line comes over a centre. They are about as
+/// short as they can be so (reconstruct/fair/relax.h), and enclose the area of their pixels, but
+/// for 1e-6 of it; only where many pixels meet in corners may their squares leave no room for that.
+/// Shares count for what they are on which side of the level. Labels that are neighbours have the
+/// same points on their border, without a gap, also where three meet. Where pixels of a label meet
+/// in a corner only, and so do those of another one, the one that comes first in the volume goes
+/// through and the other is kept apart; what is outside comes before all.
+///
 /// If each axis of the pixels runs along one of the world's, slices along z, contours are in the
 /// world's coordinates; otherwise they are in its distances along the rows and across them, and the
 /// stack has a frame.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "reconstruct/clean/cleaning.h"
+#include "reconstruct/fair/fair_contours.h"
 
 namespace loft {
 
@@ -107,6 +108,17 @@ Region clean(const Height& height, std::span<const ContourSource> contours, cons
 
 Region clean(const Height& height, std::span<const Slice* const> parts, const Options& options,
              std::vector<Defect>& repairs, cdt::Triangulation& memory) {
+  if (options.fair) {
+    std::vector<Slice> moved;
+    std::vector<Slice*> changing;
+    moved.reserve(parts.size());
+    for (const Slice* part : parts) changing.push_back(&moved.emplace_back(*part));
+    make_fair(changing, *options.fair);
+    Options rest = options;
+    rest.fair = {};
+    return clean(height, std::vector<const Slice*>(changing.begin(), changing.end()), rest, repairs,
+                 memory);
+  }
   std::vector<ContourSource> contours;
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto& all = parts[i]->contours;

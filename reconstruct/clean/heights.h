@@ -30,12 +30,13 @@ struct Height {
                                                std::vector<Defect>& repairs);
 
 /// Cleans what is at a height: the contours with the label wanted, of the slices `parts`, which are
-/// those that `height` names.
+/// those that `height` names; first makes them fair where the options ask for that.
 [[nodiscard]] Region clean(const Height& height, std::span<const Slice* const> parts,
                            const Options& options, std::vector<Defect>& repairs,
                            cdt::Triangulation& memory);
 
-/// The same, with the contours wanted known: `contours` are those of the stack, in order.
+/// The same, with the contours wanted known and fair already: `contours` are those of the stack, in
+/// order.
 [[nodiscard]] Region clean(const Height& height, std::span<const Slice> stack,
                            std::span<const ContourId> contours, const Options& options,
                            std::vector<Defect>& repairs, cdt::Triangulation& memory);

@@ -207,8 +207,15 @@ TEST(Reconstruction, RandomEditsOfOpenSurfacesThatTouchGiveWhatTheBatchGives) {
   }
 }
 
+TEST(Reconstruction, RandomEditsOfFairContoursGiveWhatTheBatchGives) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    play(random_pool(seed, 5, seed % 2 == 0), {.fair = 0.3}, seed, edit_count(20), 4);
+    play(mask_pool(seed, 4, 0.5), {.fair = 0.4, .smooth = true}, seed, edit_count(16), 5);
+  }
+}
+
 TEST(Reconstruction, RandomEditsOfTurnedMasksGiveWhatTheBatchGives) {
-  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) {
     std::vector<Slice> pool = mask_pool(seed, 5, 0.4);
     const double angle = 0.3 * static_cast<double>(seed);
     for (Slice& slice : pool)

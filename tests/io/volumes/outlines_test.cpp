@@ -20,7 +20,7 @@ using testing::message_of;
 using testing::random_pixels;
 using testing::volume_of;
 
-constexpr Outline drawings[]{Outline::iso_lines, Outline::edges};
+constexpr Outline drawings[]{Outline::iso_lines, Outline::edges, Outline::fair};
 
 using Points = std::vector<cdt::Point>;
 

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstdint>
+
+namespace loft {
+
+/// How many random cases are tried where a whole run tries so many: a third with sanitizers, which
+/// take ten times as long and look for what few cases show.
+constexpr std::uint64_t cases(std::uint64_t count) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return (count + 2) / 3;
+#else
+  return count;
+#endif
+}
+
+}  // namespace loft
