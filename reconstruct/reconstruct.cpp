@@ -335,7 +335,7 @@ Options options_for(const Stack& stack, const Options& options) {
 Reconstructed reconstruct(const Stack& stack, const Options& options, const Progress& progress) {
   if (options.fair) {
     require_usable(options);
-    if (auto fatal = find_unusable(stack.slices); !fatal.empty())
+    if (auto fatal = find_all_unusable(stack.slices); !fatal.empty())
       throw InputError(std::move(fatal));
     return reconstruct(fair(stack, *options.fair, options.height_tolerance, options.threads),
                        without_fair(options), progress);
