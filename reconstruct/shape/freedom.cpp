@@ -15,15 +15,15 @@ using cdt::Point;
 constexpr double degree = std::numbers::pi / 180;
 
 /// An outline that turns by less is round, one that turns by more has a corner.
-constexpr double round_turn = 15 * degree;
-constexpr double corner_turn = 45 * degree;
+constexpr double round_turn = 20 * degree;
+constexpr double corner_turn = 50 * degree;
 
 /// A link goes on straight if it comes that near to a corner of the next slice, as a share of the
 /// shortest edge at its ends and there; twice as far away it does not.
 constexpr double straightness = 0.02;
 
 /// A piece of whose edges at least that share is loose is as free as these.
-constexpr double least_loose = 0.5;
+constexpr double least_loose = 0.75;
 
 /// The links of a slab, against the corners of the slices before and after it.
 class Links {
