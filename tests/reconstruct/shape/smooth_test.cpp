@@ -165,12 +165,13 @@ TEST(Smooth, ATiltedBoxIsNoWorseThanStraight) {
   for (double z = -15; z < 15.5; z += 1.25) slices.push_back(box.slice(z));
   const auto mean = [&](const Surface& surface) {
     double sum = 0;
-    for (const auto e : surface.edges()) {
-      const auto p = surface.calc_edge_midpoint(e);
-      if (std::abs(p[2]) < 15) sum += std::abs(box.distance(p)) * surface.calc_edge_length(e);
-    }
     double all = 0;
-    for (const auto e : surface.edges()) all += surface.calc_edge_length(e);
+    for (const auto f : surface.faces()) {
+      const auto p = surface.calc_face_centroid(f);
+      if (std::abs(p[2]) >= 15) continue;
+      sum += std::abs(box.distance(p)) * surface.calc_face_area(f);
+      all += surface.calc_face_area(f);
+    }
     return sum / all;
   };
   const Surface plain = make(slices, false);
