@@ -70,7 +70,9 @@ TEST(SignedDistance, IsThatToTheSideOfAWallThatIsAskedFor) {
 }
 
 TEST(SignedDistance, FindsTheNearestCornerAndTheShorterEdgeAtIt) {
-  const SignedDistance triangle(boundary(clean_slice({0, {{{{0, 0}, {4, 0}, {4, 3}}}}})));
+  Contour contour;
+  contour.points = {{0, 0}, {4, 0}, {4, 3}};
+  const SignedDistance triangle(boundary(clean_slice({0, {contour}})));
   const auto found = triangle.corner_near({4.25, 0}, 0.5);
   ASSERT_TRUE(found);
   EXPECT_EQ(found->distance, 0.25);

@@ -144,7 +144,9 @@ class TiltedBox {
     }
     std::ranges::sort(points, {},
                       [&](cdt::Point p) { return std::atan2(p.y - middle.y, p.x - middle.x); });
-    return {z, {{points}}};
+    Contour contour;
+    contour.points = points;
+    return {z, {contour}};
   }
 
  private:
