@@ -65,6 +65,16 @@ class SegmentTree {
     if (turned_.empty())
       search(p, limit, visit);
     else
+      search_turned(p, std::min(limit, squared_reach(p, slack_at(p))), visit);
+  }
+
+  /// The same where not every segment counts: nothing but `visit` tells what is too far away.
+  template <class Visit>
+  void visit_some_near(cdt::Point p, double limit, Visit visit) const {
+    if (nodes_.empty()) return;
+    if (turned_.empty())
+      search(p, limit, visit);
+    else
       search_turned(p, limit, visit);
   }
 
@@ -130,7 +140,6 @@ class SegmentTree {
   template <class Visit>
   void search_turned(cdt::Point p, double limit, Visit& visit) const {
     const double slack = slack_at(p);
-    limit = std::min(limit, squared_reach(p, slack));
     std::array<Waiting, most_levels> stack;
     std::size_t depth = 0;
     const auto push = [&](std::uint32_t self, double squared) {

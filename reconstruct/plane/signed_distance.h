@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,18 @@ class SignedDistance {
   [[nodiscard]] bool is_empty() const { return tree_.is_empty(); }
   /// Precondition: the region is not empty. Cost: O(log n) in practice.
   [[nodiscard]] Value at(cdt::Point p) const;
+  /// The same to the edges alone that face about the same way: whose outward normals are within 120
+  /// degrees of `facing`, a unit vector. So the other side of a thin wall does not count. As at(p)
+  /// if `facing` is 0, or no edge faces that way.
+  [[nodiscard]] Value at(cdt::Point p, cdt::Point facing) const;
+
+  /// A corner of the boundary near a place.
+  struct Corner {
+    double distance;  ///< from the place
+    double edge;      ///< length of the shorter edge at it
+  };
+  /// The nearest corner no further than `most` away.
+  [[nodiscard]] std::optional<Corner> corner_near(cdt::Point p, double most) const;
 
  private:
   SegmentTree tree_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <span>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -12,6 +13,9 @@
 #include "mesh/predicates.h"
 #include "mesh/triangle_pairs.h"
 #include "mesh/vec3.h"
+#include "reconstruct/shape/edge_index.h"
+#include "reconstruct/shape/freedom.h"
+#include "reconstruct/shape/outlines.h"
 
 namespace loft {
 
@@ -54,51 +58,6 @@ Vec3 middle(const Vec3& a, const Vec3& b) {
 
 /// What a connected piece of the tiles is bent to; nothing if its slices do not tell.
 using Shape = std::variant<std::monostate, SmoothPassage, SmoothEnd>;
-
-/// Numbers edges by their nodes. All in one table, at most half full: what takes the time is
-/// waiting for memory, and here an edge is where it is looked for or next to it.
-class EdgeIndex {
- public:
-  /// The value of an edge, and whether it was set before. Holds until the next call.
-  std::pair<std::uint32_t&, bool> at(std::uint32_t a, std::uint32_t b) {
-    if (2 * count_ >= entries_.size()) grow();
-    const auto [low, high] = std::minmax(a, b);
-    Entry& entry = entries_[slot(low, high)];
-    const bool is_known = entry.low != none;
-    if (!is_known) {
-      entry = {low, high, none};
-      ++count_;
-    }
-    return {entry.value, is_known};
-  }
-
- private:
-  struct Entry {
-    std::uint32_t low = none;
-    std::uint32_t high = none;
-    std::uint32_t value = none;
-  };
-
-  /// Where an edge is, or would be.
-  [[nodiscard]] std::size_t slot(std::uint32_t low, std::uint32_t high) const {
-    constexpr std::uint64_t golden = 0x9e37'79b9'7f4a'7c15;  // 2^64 by the golden ratio
-    const std::uint64_t hash = ((std::uint64_t{low} << 32 | high) * golden) >> 32;
-    std::size_t at = (hash * entries_.size()) >> 32;
-    while (entries_[at].low != none && (entries_[at].low != low || entries_[at].high != high))
-      at = at + 1 == entries_.size() ? 0 : at + 1;
-    return at;
-  }
-
-  void grow() {
-    std::vector<Entry> old(std::max<std::size_t>(1024, 2 * entries_.size()));
-    old.swap(entries_);
-    for (const Entry& entry : old)
-      if (entry.low != none) entries_[slot(entry.low, entry.high)] = entry;
-  }
-
-  std::vector<Entry> entries_;  // looked up, never walked through in their order
-  std::size_t count_ = 0;
-};
 
 /// The deepest known place of a part.
 struct Depth {
@@ -159,8 +118,8 @@ std::vector<Depth> find_depths(const Region& lower, const Region& upper, const S
 }
 
 /// What each piece is bent to.
-std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const Surroundings& slices,
-                               const Pieces& pieces, const TileSet& tiles) {
+std::vector<Shape> find_shapes(const BentSlab& slab, const TileSet& tiles) {
+  const auto& [lower, upper, slices, pieces] = slab;
   const std::vector<Depth> depths = find_depths(lower, upper, slices, pieces, tiles);
   std::vector<Shape> shapes(pieces.pieces.size());
   for (std::uint32_t i = 0; i < shapes.size(); ++i) {
@@ -179,18 +138,35 @@ std::vector<Shape> find_shapes(const Region& lower, const Region& upper, const S
   return shapes;
 }
 
+/// 0 where directions are against each other by more than 120 degrees.
+Point unit(Point sum) {
+  const double length = std::hypot(sum.x, sum.y);
+  return length < 0.999 ? Point{} : Point{sum.x / length, sum.y / length};
+}
+
+/// At the points of both regions, one after the other.
+std::vector<OutlinePoint> outlines_of(const Region& lower, const Region& upper) {
+  std::vector<OutlinePoint> points = outline_points(lower);
+  const std::vector<OutlinePoint> above = outline_points(upper);
+  points.insert(points.end(), above.begin(), above.end());
+  return points;
+}
+
 class Smoothing {
  public:
-  Smoothing(const Region& lower, const Region& upper, const Surroundings& slices,
-            const Pieces& pieces, TileSet tiles)
-      : lower_(lower),
-        upper_(upper),
+  Smoothing(const BentSlab& slab, std::span<const OutlinePoint> outlines, TileSet tiles)
+      : lower_(slab.lower),
+        upper_(slab.upper),
         plain_(std::move(tiles)),
         tiles_(plain_),
-        piece_(pieces.of_tile),
-        shapes_(find_shapes(lower, upper, slices, pieces, plain_)),
-        lower_count_(static_cast<std::uint32_t>(lower.points.size())),
-        contour_count_(lower_count_ + static_cast<std::uint32_t>(upper.points.size())) {}
+        piece_(slab.pieces.of_tile),
+        shapes_(find_shapes(slab, plain_)),
+        freedom_(slab, outlines, plain_),
+        lower_count_(static_cast<std::uint32_t>(lower_.points.size())),
+        contour_count_(lower_count_ + static_cast<std::uint32_t>(upper_.points.size())) {
+    for (const OutlinePoint& point : outlines) facing_.push_back(unit(point.facing));
+    facing_.resize(contour_count_ + plain_.inner.size());
+  }
 
   TileSet run() {
     move_inner();
@@ -208,11 +184,16 @@ class Smoothing {
     std::array<std::uint32_t, 2> edge;  // none: it was there before
     Vec3 start;
     Vec3 way;
+    Vec3 straight;  // where it would be if no edge were bent
     double share = 1;
   };
 
   [[nodiscard]] Vec3 place(std::uint32_t node) const {
     return place_of(lower_, upper_, tiles_.inner, node);
+  }
+
+  [[nodiscard]] Vec3 straight_place(std::uint32_t node) const {
+    return node < contour_count_ ? place(node) : moves_[node - contour_count_].straight;
   }
 
   [[nodiscard]] bool is_contour(std::uint32_t a, std::uint32_t b) const {
@@ -221,21 +202,23 @@ class Smoothing {
 
   [[nodiscard]] double height() const { return upper_.z - lower_.z; }
 
-  /// The way from p to the smooth surface, no further than `most`.
-  [[nodiscard]] Vec3 way_to(const Shape& shape, const Vec3& p, double most) const {
-    if (const auto* passage = std::get_if<SmoothPassage>(&shape)) return way_to(*passage, p, most);
+  /// The way from p to the smooth surface, no further than `most`, where it faces as contours do.
+  [[nodiscard]] Vec3 way_to(const Shape& shape, const Vec3& p, double most, Point facing) const {
+    if (const auto* passage = std::get_if<SmoothPassage>(&shape))
+      return way_to([&](const Vec3& q) { return passage->at(q, facing); }, p, most);
     if (const auto* end = std::get_if<SmoothEnd>(&shape)) {
       const Vec3 upright = end->upright(p);
-      return minus(end->leant(along(upright, 1, way_to(*end, upright, most))), p);
+      const Vec3 way = way_to([&](const Vec3& q) { return end->at(q); }, upright, most);
+      return minus(end->leant(along(upright, 1, way)), p);
     }
     return {};
   }
 
-  template <class Surface>
-  [[nodiscard]] Vec3 way_to(const Surface& surface, const Vec3& p, double most) const {
+  template <class SampleAt>
+  [[nodiscard]] Vec3 way_to(const SampleAt& sample_at, const Vec3& p, double most) const {
     Vec3 way{};
     for (int step = 0; step < newton_steps; ++step) {
-      const Sample sample = surface.at(along(p, 1, way));
+      const Sample sample = sample_at(along(p, 1, way));
       const double steepness = std::max(length(sample.gradient), least_gradient);
       if (std::abs(sample.value) < nearness * height() * steepness) break;
       way = along(way, -sample.value / (steepness * steepness), sample.gradient);
@@ -257,8 +240,10 @@ class Smoothing {
       const Vec3 start = tiles_.inner[i].place;
       const Shape& shape = shapes_[piece[i]];
       const bool is_end = std::holds_alternative<SmoothEnd>(shape);
-      const Vec3 way = way_to(shape, start, (is_end ? most_of_end : most_of_fork) * height());
-      moves_.push_back({{none, none}, start, way});
+      const double most = (is_end ? most_of_end : most_of_fork) * height();
+      const double freedom = freedom_.of_node(contour_count_ + i, piece[i]);
+      const Vec3 way = along({}, freedom, way_to(shape, start, most, {}));
+      moves_.push_back({{none, none}, start, way, start});
       tiles_.inner[i].place = along(start, 1, way);
     }
   }
@@ -288,12 +273,21 @@ class Smoothing {
     const auto [node, is_known] = middles_.at(a, b);
     if (is_known) return node;
     const Vec3 start = middle(place(a), place(b));
-    const Vec3 way =
-        way_to(shapes_[piece], start, most_of_edge * length(minus(place(a), place(b))));
+    const Vec3 straight = middle(straight_place(a), straight_place(b));
+    const Point facing = unit({facing_[a].x + facing_[b].x, facing_[a].y + facing_[b].y});
+    const double freedom = freedom_.of_edge(a, b, piece);
+    const double most = most_of_edge * length(minus(place(a), place(b)));
+    Vec3 way = minus(straight, start);
+    if (freedom > 0) {
+      const Vec3 bent = way_to(shapes_[piece], start, most, facing);
+      way = along(bent, 1 - freedom, minus(way, bent));
+    }
     if (!(length(way) > coarseness * height())) return none;
     node = contour_count_ + static_cast<std::uint32_t>(tiles_.inner.size());
     tiles_.inner.push_back({along(start, 1, way), VertexKind::steiner});
-    moves_.push_back({{a, b}, start, way});
+    moves_.push_back({{a, b}, start, way, straight});
+    freedom_.add_middle(a, b);
+    facing_.push_back(facing);
     return node;
   }
 
@@ -419,9 +413,11 @@ class Smoothing {
   TileSet tiles_;
   std::vector<std::uint32_t> piece_;  // of each tile
   std::vector<Shape> shapes_;         // of each piece
+  Freedom freedom_;
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
   std::vector<Move> moves_;              // of each inner vertex
+  std::vector<Point> facing_;            // of each node: outwards as contours do there, or 0
   std::vector<bool> is_met_;             // of each tile, when that was looked at last
   std::vector<std::uint32_t> doubtful_;  // the tiles of which that has to be found anew
   std::vector<Corners> corners_;         // of each tile, then
@@ -435,7 +431,8 @@ class Smoothing {
 TileSet smooth(const Region& lower, const Region& upper, const Surroundings& slices,
                const Pieces& pieces, TileSet tiles) {
   if (!tiles.is_linked || tiles.tiles.empty()) return tiles;
-  return Smoothing(lower, upper, slices, pieces, std::move(tiles)).run();
+  const std::vector<OutlinePoint> outlines = outlines_of(lower, upper);
+  return Smoothing({lower, upper, slices, pieces}, outlines, std::move(tiles)).run();
 }
 
 }  // namespace loft

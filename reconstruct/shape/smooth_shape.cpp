@@ -14,6 +14,10 @@ using cdt::Point;
 /// comes from slices that show something else.
 constexpr double most_turn = 1.5;
 
+/// A tangent is believed over that many gaps of the one beside the slab; over a higher slab it
+/// turns away from the chord by so much less.
+constexpr double most_reach = 5;
+
 /// At the end of the stack, where the slab is continued as a circle: that share of the turn at its
 /// other end. All of it overshoots where shapes end flat.
 constexpr double end_turn = 0.75;
@@ -67,7 +71,8 @@ std::array<SmoothPassage::Tangent, 2> SmoothPassage::tangents(const Weights& dis
   if (has(0)) {
     const double gap_below = z(1) - z(0);
     const Chord below(gap_below, distances[1] - distances[0]);
-    shares[0] = share_of_second(below, chord);
+    const double belief = std::min(1.0, most_reach * gap_below / gap);
+    shares[0] = 1 - belief * (1 - share_of_second(below, chord));
     angles[0] = shares[0] * chord.angle + (1 - shares[0]) * below.angle;
     tangents[0].weights[0] -= (1 - shares[0]) / gap_below;
     tangents[0].weights[1] += (1 - shares[0]) / gap_below;
@@ -75,7 +80,8 @@ std::array<SmoothPassage::Tangent, 2> SmoothPassage::tangents(const Weights& dis
   if (has(3)) {
     const double gap_above = z(3) - z(2);
     const Chord above(gap_above, distances[3] - distances[2]);
-    shares[1] = 1 - share_of_second(chord, above);
+    const double belief = std::min(1.0, most_reach * gap_above / gap);
+    shares[1] = 1 - belief * share_of_second(chord, above);
     angles[1] = shares[1] * chord.angle + (1 - shares[1]) * above.angle;
     tangents[1].weights[2] -= (1 - shares[1]) / gap_above;
     tangents[1].weights[3] += (1 - shares[1]) / gap_above;
@@ -94,14 +100,15 @@ std::array<SmoothPassage::Tangent, 2> SmoothPassage::tangents(const Weights& dis
   return tangents;
 }
 
-Sample SmoothPassage::at(const Vec3& p) const {
+Sample SmoothPassage::at(const Vec3& p, Point facing) const {
   const double gap = z(2) - z(1);
   Weights distances{};
   std::array<Point, 4> directions{};
   for (std::size_t i = 0; i < 4; ++i) {
     if (!has(i)) continue;
     const double share = (z(i) - p[2]) / gap;
-    const auto found = slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y});
+    const auto found =
+        slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y}, facing);
     distances[i] = found.distance;
     directions[i] = found.outward;
   }

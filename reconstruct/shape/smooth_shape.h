@@ -35,16 +35,19 @@ struct Sample {
 /// Udupa, 1990) of the third order. The tangent at a slice is that of the circle through the three
 /// points: the directions of both chords, each weighted with the other's length. So it is exact
 /// for round shapes, follows the flatter side where a flat face meets an upright one, and all but
-/// disregards a slice in which there is nothing near. Reads one slice on either side of the slab.
+/// disregards a slice in which there is nothing near. Over a gap that is many times as high as the
+/// one beside it, a tangent is believed the less: noise would grow. Reads one slice on either side
+/// of the slab.
 class SmoothPassage {
  public:
   /// The slab is sheared: what is at p in the lower slice is expected at p + shift in the upper
   /// one.
   explicit SmoothPassage(const Surroundings& slices, cdt::Point shift = {});
 
-  /// Cost: that of a query of each slice. The gradient is approximate: it takes the tangents for
-  /// weighted means of the chords.
-  [[nodiscard]] Sample at(const Vec3& p) const;
+  /// Of the contours those count that face about as the unit vector `facing`; all, if it is 0. So
+  /// both sides of a thin wall bend as they go themselves. Cost: that of a query of each slice. The
+  /// gradient is approximate: it takes the tangents for weighted means of the chords.
+  [[nodiscard]] Sample at(const Vec3& p, cdt::Point facing = {}) const;
 
  private:
   using Weights = std::array<double, 4>;

@@ -59,6 +59,28 @@ TEST(SignedDistance, IsThatOfEveryEdge) {
   }
 }
 
+// Of a thin wall one side is asked for; turned by half a turn, the other one.
+TEST(SignedDistance, IsThatToTheSideOfAWallThatIsAskedFor) {
+  const SignedDistance wall(boundary(clean_slice({0, {stacks::square(2), stacks::square(1.9)}})));
+  EXPECT_NEAR(wall.at({1.91, 0}).distance, -0.01, 1e-12);
+  EXPECT_NEAR(wall.at({1.91, 0}, {1, 0}).distance, -0.09, 1e-12);
+  EXPECT_NEAR(wall.at({1.91, 0}, {-1, 0}).distance, -0.01, 1e-12);
+  EXPECT_NEAR(wall.at({1.8, 0}, {1, 0}).distance, -0.2, 1e-12);
+  EXPECT_EQ(wall.at({1.91, 0}, {}).distance, wall.at({1.91, 0}).distance);
+}
+
+TEST(SignedDistance, FindsTheNearestCornerAndTheShorterEdgeAtIt) {
+  Contour contour;
+  contour.points = {{0, 0}, {4, 0}, {4, 3}};
+  const SignedDistance triangle(boundary(clean_slice({0, {contour}})));
+  const auto found = triangle.corner_near({4.25, 0}, 0.5);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->distance, 0.25);
+  EXPECT_EQ(found->edge, 3);
+  EXPECT_FALSE(triangle.corner_near({4.25, 0}, 0.125));
+  EXPECT_EQ(triangle.corner_near({0, 0}, 0)->edge, 4);
+}
+
 TEST(SignedDistance, GrowsOutwards) {
   const SignedDistance square(boundary(clean_slice({0, {stacks::square(1)}})));
   const auto inside = square.at({0.75, 0.1});
