@@ -76,8 +76,8 @@ class Follower {
   /// Made triangles that are joined by edges.
   struct Part {
     std::uint32_t number = 0;
-    TriangleId infinite;  // one of them, if any is
-    EdgeId first;         // else: from the rightmost vertex, the first one counter-clockwise
+    TriangleId infinite{};  // one of them, if any is
+    EdgeId first{};         // else: from the rightmost vertex, the first one counter-clockwise
   };
 
   [[nodiscard]] Point from(EdgeId e) const { return mesh_->point(mesh_->from(e)); }

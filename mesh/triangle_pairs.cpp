@@ -28,7 +28,7 @@ Box3 grown(const Box3& box, double reach) {
 /// is joined to the corner by segments in both. An arc is no further from its chord than a quarter
 /// of the chord's square.
 Box3 arc_of(const Corners& t, std::size_t corner) {
-  constexpr double rounding = 0x1p-46;
+  constexpr double rounding_of_ends = 0x1p-46;
   std::array<Vec3, 2> ends;
   for (std::size_t i = 0; i < 2; ++i) {
     Vec3 way = minus(t[(corner + 1 + i) % 3], t[corner]);
@@ -39,7 +39,7 @@ Box3 arc_of(const Corners& t, std::size_t corner) {
     for (double& x : way) x /= size;
     ends[i] = way;
   }
-  const double bulge = squared_length(minus(ends[0], ends[1])) / 4 + rounding;
+  const double bulge = squared_length(minus(ends[0], ends[1])) / 4 + rounding_of_ends;
   Box3 box = joined({ends[0], ends[0]}, {ends[1], ends[1]});
   for (std::size_t axis = 0; axis < 3; ++axis) {
     box.low[axis] -= bulge;

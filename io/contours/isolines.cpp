@@ -33,8 +33,8 @@ class Border {
 
   /// None where a point is inside.
   [[nodiscard]] std::optional<double> place(const cdt::Point& point) const {
-    constexpr double rounding = 1e-7;
-    const double near = rounding * (width_ + height_);
+    constexpr double rounding_of_border = 1e-7;
+    const double near = rounding_of_border * (width_ + height_);
     if (point.y - least_.y <= near) return point.x - least_.x;
     if (most_.x - point.x <= near) return width_ + point.y - least_.y;
     if (most_.y - point.y <= near) return width_ + height_ + most_.x - point.x;

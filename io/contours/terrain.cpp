@@ -129,12 +129,12 @@ class TerrainReader {
   }
 
   [[nodiscard]] std::string known_properties() const {
-    std::string names;
+    std::string known;
     for (const std::string& one :
          json_.features.empty() ? std::vector<std::string>() : json_.features.front().names())
-      names += (names.empty() ? "" : ", ") + in_quotes(one);
+      known += (known.empty() ? "" : ", ") + in_quotes(one);
     return "; name the one that has them by --z-property" +
-           (names.empty() ? std::string() : "; the first feature has " + names);
+           (known.empty() ? std::string() : "; the first feature has " + known);
   }
 
   /// Gives each shape its heights; counts those that have none.

@@ -72,8 +72,8 @@ class Lattice {
   }
 
   [[nodiscard]] bool has(double place) const {
-    const double pixels = (place - origin) / pitch;
-    return std::abs(pixels - std::round(pixels)) <= off;
+    const double lines = (place - origin) / pitch;
+    return std::abs(lines - std::round(lines)) <= off;
   }
 };
 

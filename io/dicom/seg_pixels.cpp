@@ -34,9 +34,9 @@ std::string_view pixel_bytes(DcmItem& item) {
 DcmPixelSequence* pixel_sequence(DcmItem& item, E_TransferSyntax syntax) {
   DcmElement* element = nullptr;
   if (item.findAndGetElement(DCM_PixelData, element).bad()) return nullptr;
-  auto* const pixels = dynamic_cast<DcmPixelData*>(element);
+  auto* const data = dynamic_cast<DcmPixelData*>(element);
   DcmPixelSequence* sequence = nullptr;
-  if (pixels == nullptr || pixels->getEncapsulatedRepresentation(syntax, nullptr, sequence).bad())
+  if (data == nullptr || data->getEncapsulatedRepresentation(syntax, nullptr, sequence).bad())
     return nullptr;
   return sequence;
 }

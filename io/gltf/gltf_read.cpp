@@ -103,11 +103,11 @@ class Reader {
   }
 
   void visit(int index, const Affine& above, int depth) {
-    constexpr int deepest = 1000;
+    constexpr int deepest_node = 1000;
     const tinygltf::Node* node = at(model_.nodes, index);
     if (node == nullptr) fail("there is no node " + std::to_string(index));
     // glTF's nodes are trees; without this check a small file could ask for endless work.
-    if (depth > deepest || ++visits_ > model_.nodes.size()) fail("its nodes are no trees");
+    if (depth > deepest_node || ++visits_ > model_.nodes.size()) fail("its nodes are no trees");
     const Affine map = above * transform(*node);
     if (const auto* mesh = at(model_.meshes, node->mesh)) read_mesh(*mesh, map, node->name);
     for (const int child : node->children) visit(child, map, depth + 1);

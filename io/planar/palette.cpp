@@ -12,7 +12,7 @@ struct Hue {
   Colour dark;
 };
 
-constexpr std::array<Hue, hue_count> hues{{
+constexpr std::array<Hue, hue_count> palette_hues{{
     {{0xe6, 0xd3, 0xa3}, {0x8f, 0x6f, 0x22}},  // sand
     {{0xbf, 0xd8, 0xaa}, {0x4c, 0x7d, 0x2c}},  // sage
     {{0xf2, 0xc4, 0xa0}, {0xb3, 0x58, 0x1c}},  // apricot
@@ -35,7 +35,7 @@ std::string to_hex(Colour colour) {
   return text;
 }
 
-Colour full_tone(std::size_t hue) { return hues[hue].full; }
+Colour full_tone(std::size_t hue) { return palette_hues[hue].full; }
 
 Colour pale_tone(std::size_t hue) {
   const auto paler = [](std::uint8_t part) {
@@ -45,6 +45,6 @@ Colour pale_tone(std::size_t hue) {
   return {paler(full.red), paler(full.green), paler(full.blue)};
 }
 
-Colour dark_tone(std::size_t hue) { return hues[hue].dark; }
+Colour dark_tone(std::size_t hue) { return palette_hues[hue].dark; }
 
 }  // namespace loft::io

@@ -15,7 +15,7 @@ namespace {
 using cdt::Point;
 
 /// Of the half of a distance; the rest is for rounding.
-constexpr double share = 0.49;
+constexpr double share_of_gap = 0.49;
 /// Of its longest edge, how far a point may go: more than smoothing asks for, and edges need not be
 /// compared with all others, however large the distance.
 constexpr double most_lengths = 8;
@@ -65,7 +65,7 @@ std::vector<double> clearances(std::span<const NetEdge> edges, std::span<const P
   };
   TileGrid grid(edges.size(), [&](std::uint32_t i) { return box_of(i, 0); });
   for (std::uint32_t i = 0; i < edges.size(); ++i) {
-    const double far = std::max(most[edges[i].first], most[edges[i].second]) / share;
+    const double far = std::max(most[edges[i].first], most[edges[i].second]) / share_of_gap;
     const cdt::Box box = box_of(i, far);
     double least = far;
     static_cast<void>(grid.all_of_near(box, [&](std::uint32_t k) {
@@ -75,7 +75,7 @@ std::vector<double> clearances(std::span<const NetEdge> edges, std::span<const P
       return true;
     }));
     for (const std::uint32_t end : {edges[i].first, edges[i].second})
-      found[end] = std::min(found[end], share * least);
+      found[end] = std::min(found[end], share_of_gap * least);
   }
   return found;
 }

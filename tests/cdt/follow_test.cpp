@@ -84,8 +84,8 @@ TEST_P(Follow, OfBatchesIsFlood) {
   for (std::uint64_t seed = 0; seed < 4; ++seed) expect_floods(seed, GetParam(), 7);
 }
 
-INSTANTIATE_TEST_SUITE_P(Grounds, Follow, ::testing::ValuesIn(all_grounds), [](const auto& info) {
-  std::string name = name_of(info.param);
+INSTANTIATE_TEST_SUITE_P(Grounds, Follow, ::testing::ValuesIn(all_grounds), [](const auto& chosen) {
+  std::string name = name_of(chosen.param);
   std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); });
   return name;
 });

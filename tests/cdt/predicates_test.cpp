@@ -70,9 +70,9 @@ int oracle_in_circle_perturbed(const std::array<Point, 4>& points) {
 /// To nearest, even: by comparing the distances to the two neighbours.
 double round_to_double(const Rational& value) {
   double best = value.convert_to<double>();
-  const double infinity = std::numeric_limits<double>::infinity();
+  const double infinite = std::numeric_limits<double>::infinity();
   const auto error = [&](double d) { return Rational(abs(Rational(d) - value)); };
-  for (const double next : {std::nextafter(best, infinity), std::nextafter(best, -infinity)}) {
+  for (const double next : {std::nextafter(best, infinite), std::nextafter(best, -infinite)}) {
     const bool even = (std::bit_cast<std::uint64_t>(next) & 1) == 0;
     if (error(next) < error(best) || (error(next) == error(best) && even)) best = next;
   }

@@ -193,8 +193,8 @@ TEST(Triangulation, SplitsEdgesAndTrianglesOnlyWhereTheyStayProper) {
   const TriangleId inside = Triangulation::triangle(mesh.locate({1, 1}).edge);
   EXPECT_FALSE(mesh.split(inside, {5, 5}));
   EXPECT_FALSE(mesh.split(inside, {2, 2}));
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW((void)mesh.split(inside, {nan, 1}), std::invalid_argument);
+  const double no_number = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW((void)mesh.split(inside, {no_number, 1}), std::invalid_argument);
   EXPECT_THROW((void)mesh.split(TriangleId(777), {1, 1}), std::invalid_argument);
   EXPECT_THROW((void)mesh.split(EdgeId::none(), {1, 1}), std::invalid_argument);
   ASSERT_TRUE(mesh.split(inside, {1, 1}));
@@ -244,11 +244,12 @@ TEST(Triangulation, RefusesWhatIsNoPolylineAndStaysAsItWas) {
   Triangulation mesh;
   mesh.insert(circle(5, 1), closed);
   const auto before = triangles_of(mesh);
-  const double nan = std::numeric_limits<double>::quiet_NaN();
-  const double infinity = std::numeric_limits<double>::infinity();
+  const double no_number = std::numeric_limits<double>::quiet_NaN();
+  const double endless = std::numeric_limits<double>::infinity();
   EXPECT_THROW(mesh.insert(std::vector<Point>{}, open), std::invalid_argument);
-  EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {nan, 0}}, open), std::invalid_argument);
-  EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {0, infinity}}, open), std::invalid_argument);
+  EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {no_number, 0}}, open),
+               std::invalid_argument);
+  EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {0, endless}}, open), std::invalid_argument);
   EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {0, 2e75}}, open), std::invalid_argument);
   EXPECT_THROW(mesh.insert(std::vector<Point>{{3, 3}, {0, 1e-66}}, open), std::invalid_argument);
   EXPECT_EQ(triangles_of(mesh), before);
