@@ -13,7 +13,7 @@ namespace loft::app {
 namespace {
 
 void make_fair(Stack& stack, double distance) {
-  if (const auto& unusable = ContoursByLabel(stack.slices).unusable(); !unusable.empty())
+  if (const auto unusable = ContoursByLabel(stack.slices).unusable(); !unusable.empty())
     throw InputError(unusable);
   stack = fair(stack, distance);
 }

@@ -39,6 +39,7 @@ class Links {
     const Point from = slab_.lower.points[low];
     const Point to = slab_.upper.points[high - lower_count];
     const double edge = std::min(outlines_[low].edge, outlines_[high].edge);
+    if (edge == 0) return 1;  // a tip, which has none
     return std::min(looseness(slab_.slices[0], from, to, edge),
                     looseness(slab_.slices[3], from, to, edge));
   }

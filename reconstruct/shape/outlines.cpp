@@ -20,6 +20,7 @@ std::vector<OutlinePoint> outline_points(const Region& region) {
       const Point go{after.x - here.x, after.y - here.y};
       const double come_length = std::hypot(come.x, come.y);
       const double go_length = std::hypot(go.x, go.y);
+      if (come_length == 0 || go_length == 0) continue;  // a lone point
       OutlinePoint& point = found[loop[k]];
       point.facing.x += come.y / come_length + go.y / go_length;
       point.facing.y -= come.x / come_length + go.x / go_length;

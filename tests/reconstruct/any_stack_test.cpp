@@ -30,6 +30,12 @@ TEST(AnyStack, MakesASolidAndKeepsItsAreas) {
   }
 }
 
+// The link to a tip, which has no edges, ran on to a corner exactly: 0 of 0 was how freely it
+// bends.
+TEST(AnyStack, ATipInLineWithACornerIsBent) {
+  EXPECT_EQ(stacks::complaint(stacks::stack_from_seed(47)), "");
+}
+
 TEST(AnyStack, TwoCrossingsALastPlaceApartKeepTheCornerBetweenThem) {
   stacks::AnyStack any;
   any.options.fill = Fill::nonzero;

@@ -116,13 +116,13 @@ void expect_laws(const Slice& slice, double distance) {
 
 /// A star of jittery points; it may cross itself where it is wild.
 Contour star(std::mt19937_64& random, Point centre, double radius, double jitter) {
-  std::normal_distribution<double> off(0, jitter);
+  std::normal_distribution<double> off;
   Contour contour;
   const std::size_t count = 5 + random() % 60;
   for (std::size_t i = 0; i < count; ++i) {
     const double angle = 2 * std::acos(-1.0) * static_cast<double>(i) / static_cast<double>(count);
-    contour.points.push_back({centre.x + radius * std::cos(angle) + off(random),
-                              centre.y + radius * std::sin(angle) + off(random)});
+    contour.points.push_back({centre.x + radius * std::cos(angle) + jitter * off(random),
+                              centre.y + radius * std::sin(angle) + jitter * off(random)});
   }
   return contour;
 }
