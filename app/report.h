@@ -46,6 +46,10 @@ void add_sizes(std::map<std::string, StackSize>& of_labels, const Slice& slice);
 /// `smallest angles: least 1.2, 5th percentile 12.3, median 34.5 degrees; worst aspect 56.7`
 [[nodiscard]] std::string describe(const Angles& angles);
 
+/// Whether contours are bent without having been made fair.
+[[nodiscard]] inline bool bends_as_they_are(const Options& options) {
+  return options.smooth && !options.fair;
+}
 /// The warning that stairs are bent from slice to slice, and the ways out.
 inline constexpr const char* stairs_are_bent =
     "the contours are stairs, as outlines along pixels are, and --smooth bends every step; smooth "

@@ -56,7 +56,6 @@ class Follower {
       if (t.index() < values_.size()) values_[t.index()] = outside_;
     gather_parts(changes.made);
     for (const Part& part : parts_) spread(part);
-    for (const TriangleId t : changes.made) part_[t.index()] = unmade;
   }
 
   /// The value of a triangle.

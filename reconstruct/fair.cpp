@@ -8,6 +8,7 @@
 #include "reconstruct/clean/heights.h"
 #include "reconstruct/fair/fair_contours.h"
 #include "reconstruct/parallel.h"
+#include "reconstruct/usable.h"
 
 namespace loft {
 
@@ -27,6 +28,7 @@ std::vector<Slice> fair(std::span<const Slice> slices, double distance, double h
 }
 
 Stack fair(const Stack& stack, double distance, double height_tolerance, unsigned threads) {
+  require_usable(stack.slices);
   Stack result = stack;
   result.slices = fair(stack.slices, distance, height_tolerance, threads);
   for (Slice& slice : result.slices)

@@ -25,7 +25,8 @@ namespace loft {
 [[nodiscard]] std::vector<Slice> fair(std::span<const Slice> slices, double distance,
                                       double height_tolerance = 0, unsigned threads = 0);
 
-/// The same for a stack. Its contours' own places in the world are left out: its frame has them.
+/// The same for a stack, all of whose slices must be usable: throws InputError that names all that
+/// is not. Its contours' own places in the world are left out: its frame has them.
 [[nodiscard]] Stack fair(const Stack& stack, double distance, double height_tolerance = 0,
                          unsigned threads = 0);
 

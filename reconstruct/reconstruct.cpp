@@ -32,13 +32,6 @@ namespace loft {
 
 namespace {
 
-std::vector<Defect> find_all_unusable(std::span<const Slice> slices) {
-  std::vector<Defect> found;
-  for (std::uint32_t s = 0; s < slices.size(); ++s)
-    std::ranges::move(find_unusable(slices[s], s), std::back_inserter(found));
-  return found;
-}
-
 /// Of the empty regions at either end the one next to a filled one stays: the shape ends before it.
 /// Those between are where it is interrupted.
 std::vector<Region> trim(std::vector<Region> regions, std::vector<Defect>& repairs) {
@@ -286,7 +279,7 @@ Options without_fair(const Options& options) {
 Reconstructed reconstruct(std::span<const Slice> slices, const Options& options,
                           const Progress& progress) {
   require_usable(options);
-  if (auto fatal = find_all_unusable(slices); !fatal.empty()) throw InputError(std::move(fatal));
+  require_usable(slices);
   if (options.fair)
     return reconstruct(fair(slices, *options.fair, options.height_tolerance, options.threads),
                        without_fair(options), progress);
@@ -335,8 +328,6 @@ Options options_for(const Stack& stack, const Options& options) {
 Reconstructed reconstruct(const Stack& stack, const Options& options, const Progress& progress) {
   if (options.fair) {
     require_usable(options);
-    if (auto fatal = find_all_unusable(stack.slices); !fatal.empty())
-      throw InputError(std::move(fatal));
     return reconstruct(fair(stack, *options.fair, options.height_tolerance, options.threads),
                        without_fair(options), progress);
   }
@@ -349,7 +340,6 @@ Reconstructed reconstruct(const Stack& stack, const ContoursByLabel& contours,
                           const Options& options, const Progress& progress) {
   if (options.fair) {
     require_usable(options);
-    if (!contours.unusable().empty()) throw InputError(contours.unusable());
     return reconstruct(fair(stack, *options.fair, options.height_tolerance, options.threads),
                        contours, without_fair(options), progress);
   }

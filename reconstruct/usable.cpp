@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/usable.h"
 
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "reconstruct/number_text.h"
@@ -56,6 +58,13 @@ std::vector<Defect> find_unusable(const Slice& slice, std::uint32_t index,
     }
   }
   return found;
+}
+
+void require_usable(std::span<const Slice> slices) {
+  std::vector<Defect> found;
+  for (std::uint32_t s = 0; s < slices.size(); ++s)
+    std::ranges::move(find_unusable(slices[s], s), std::back_inserter(found));
+  if (!found.empty()) throw InputError(std::move(found));
 }
 
 void OneLabel::add(const Slice& slice) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,9 @@ class OneLabel {
   bool is_chosen_;
   std::optional<std::string> label_;
 };
+
+/// Throws InputError that names all that is unusable in a stack.
+void require_usable(std::span<const Slice> slices);
 
 /// Throws InputError that names each length of the options that admitted::length has not.
 void require_usable(const Options& options);

@@ -54,7 +54,7 @@ LabelledSurfaces::Exchange LabelledSurfaces::apply(const io::Edit& edit, NetChan
 
 /// Once is enough.
 void LabelledSurfaces::warn_of_stairs(const Slice& slice, NetChange& change) {
-  if (!options_.smooth || options_.fair || has_warned_) return;
+  if (!bends_as_they_are(options_) || has_warned_) return;
   Stairs stairs;
   stairs.add(slice);
   if (!stairs.are_there()) return;

@@ -137,21 +137,21 @@ Fidelity compare(const Stack& whole, std::span<const io::LabelledMesh> meshes, d
   const PlacesAndEdges mesh(meshes);
   std::optional<NearPlaces> near;
   if (within > 0) near.emplace(meshes, within, whole.frame ? within : 0);
-  const auto places_of = [&](const Vec3& place) {
-    if (near) return near->of(place);
-    return mesh.find(place) ? std::vector{place} : std::vector<Vec3>();
+  const auto is_there = [&](const Vec3& place) {
+    return near ? !near->of(place).empty() : mesh.find(place).has_value();
   };
   const auto is_joined = [&](const Vec3& a, const Vec3& b) {
-    const std::vector<Vec3> to = places_of(b);
-    return std::ranges::any_of(places_of(a), [&](const Vec3& from) {
+    if (!near) return has_contour_edge(mesh, a, b);
+    const std::vector<Vec3> to = near->of(b);
+    return std::ranges::any_of(near->of(a), [&](const Vec3& from) {
       return std::ranges::any_of(
           to, [&](const Vec3& other) { return has_contour_edge(mesh, from, other); });
     });
   };
   Fidelity result;
-  const auto note = [&](bool is_there, std::size_t& count, std::size_t& missing, auto... where) {
+  const auto note = [&](bool is_found, std::size_t& count, std::size_t& missing, auto... where) {
     ++count;
-    if (is_there) return;
+    if (is_found) return;
     ++missing;
     if (!result.first_missing) result.first_missing = place(where...);
   };
@@ -168,8 +168,7 @@ Fidelity compare(const Stack& whole, std::span<const io::LabelledMesh> meshes, d
                               static_cast<std::uint32_t>(c), point});
         };
         const Vec3 here = in_world(static_cast<std::uint32_t>(p));
-        const bool is_there = !places_of(here).empty();
-        note(is_there, result.vertices, result.missing_vertices, s, z, c, p);
+        note(is_there(here), result.vertices, result.missing_vertices, s, z, c, p);
         if (points[p] == points[next]) continue;
         note(is_joined(here, in_world(next)), result.edges, result.missing_edges, s, z, c, p);
       }

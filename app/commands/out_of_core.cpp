@@ -50,17 +50,19 @@ std::uintmax_t input_size(const ReconstructCommand& command) {
 /// What the first look at all slices tells.
 class Overview {
  public:
+  explicit Overview(const Options& options) : looks_for_stairs_(bends_as_they_are(options)) {}
+
   void add(const Slice& slice) {
     std::ranges::move(find_unusable(slice, static_cast<std::uint32_t>(total_.slices)),
                       std::back_inserter(unusable_));
     ++total_.slices;
     total_.contours += slice.contours.size();
     for (const Contour& contour : slice.contours) total_.vertices += contour.points.size();
-    stairs_.add(slice);
+    if (looks_for_stairs_) stairs_.add(slice);
     add_sizes(labels_, slice);
   }
 
-  [[nodiscard]] bool has_stairs() const { return stairs_.are_there(); }
+  [[nodiscard]] bool bends_stairs() const { return stairs_.are_there(); }
   [[nodiscard]] const StackSize& total() const { return total_; }
   [[nodiscard]] const std::vector<Defect>& unusable() const { return unusable_; }
   [[nodiscard]] std::vector<std::string> labels() const {
@@ -77,6 +79,7 @@ class Overview {
  private:
   StackSize total_;
   std::map<std::string, StackSize> labels_;
+  bool looks_for_stairs_;
   Stairs stairs_;
   std::vector<Defect> unusable_;
 };
@@ -118,7 +121,7 @@ bool is_out_of_core(const ReconstructCommand& command) {
 
 void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& report) {
   Stopwatch stopwatch;
-  Overview overview;
+  Overview overview(command.options);
   const io::StackFile stack(command.inputs, command.read, [&](const Slice& slice, double share) {
     overview.add(slice);
     terminal.show_progress("read", share_of_reading * share);
@@ -128,8 +131,7 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
     throw InputError(
         with_place(InputError(overview.unusable()).what(), place_of(command, Options())));
   take_over(stack.about(), command, terminal);
-  if (overview.has_stairs() && command.options.smooth && !command.options.fair)
-    terminal.warn(stairs_are_bent);
+  if (overview.bends_stairs()) terminal.warn(stairs_are_bent);
   report.input = overview.total();
   report.seconds["read"] = stopwatch.lap();
 

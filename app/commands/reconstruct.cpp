@@ -229,7 +229,7 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
 
 /// Contours of a stack that are bent without being made fair.
 void warn_of_stairs(const ReconstructCommand& command, const Stack& stack, Terminal& terminal) {
-  if (!command.options.smooth || command.options.fair) return;
+  if (!bends_as_they_are(command.options)) return;
   Stairs stairs;
   for (const Slice& slice : stack.slices) stairs.add(slice);
   if (stairs.are_there()) terminal.warn(stairs_are_bent);
@@ -238,8 +238,6 @@ void warn_of_stairs(const ReconstructCommand& command, const Stack& stack, Termi
 /// Once, not for each label.
 void make_fair(Stack& stack, Options& options) {
   require_usable(options);
-  if (const auto unusable = ContoursByLabel(stack.slices).unusable(); !unusable.empty())
-    throw InputError(unusable);
   stack = fair(stack, *options.fair, options.height_tolerance, options.threads);
   options.fair = {};
 }

@@ -8,10 +8,9 @@
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/text_reader.h"
+#include "io/contours/coordinate.h"
 #include "io/contours/edge_loops.h"
 #include "io/contours/planes.h"
-#include "mesh/admitted.h"
-#include "reconstruct/usable.h"
 
 namespace loft::io {
 
@@ -79,17 +78,8 @@ class PlaneReader {
   }
 
  private:
-  /// A bad one is noted, and is 0 until all is read.
   double coordinate(std::string_view what) {
-    const std::string_view word = text_.any_word(what);
-    try {
-      const double value = text_.to_number(word, what);
-      if (admitted::slice.admits(value)) return value;
-      text_.fail(std::string(what) + ": " + why_not_admitted(value, admitted::slice));
-    } catch (const InputError& error) {
-      problems_.add(error.what());
-    }
-    return 0;
+    return coordinate_in(text_, text_.any_word(what), what, problems_);
   }
 
   TextReader text_;

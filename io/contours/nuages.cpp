@@ -6,9 +6,8 @@
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/text_reader.h"
+#include "io/contours/coordinate.h"
 #include "io/contours/stack_builder.h"
-#include "mesh/admitted.h"
-#include "reconstruct/usable.h"
 
 namespace loft::io {
 
@@ -54,16 +53,8 @@ class NuagesReader {
     return number;
   }
 
-  /// A bad one is noted, and is 0 until all is read.
   double coordinate(std::string_view word, std::string_view what) {
-    try {
-      const double value = text_.to_number(word, what);
-      if (admitted::slice.admits(value)) return value;
-      text_.fail(std::string(what) + ": " + why_not_admitted(value, admitted::slice));
-    } catch (const InputError& error) {
-      problems_.add(error.what());
-    }
-    return 0;
+    return coordinate_in(text_, word, what, problems_);
   }
 
   void read_section(std::int64_t section) {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "reconstruct/plane/nearest.h"
 #include "reconstruct/plane/tile_grid.h"
@@ -31,23 +30,8 @@ double distance_between(const NetEdge& one, const NetEdge& other, std::span<cons
 
 }  // namespace
 
-Components::Components(std::size_t points) : parent_(points) {
-  std::iota(parent_.begin(), parent_.end(), 0);
-}
-
-void Components::join(std::uint32_t a, std::uint32_t b) {
-  a = of(a);
-  b = of(b);
-  parent_[std::max(a, b)] = std::min(a, b);
-}
-
-std::uint32_t Components::of(std::uint32_t point) const {
-  while (parent_[point] != point) point = parent_[point] = parent_[parent_[point]];
-  return point;
-}
-
 std::vector<double> clearances(std::span<const NetEdge> edges, std::span<const Point> places,
-                               const Components& components, double distance) {
+                               DisjointSets& components, double distance) {
   std::vector<double> found(places.size());
   for (const auto& [a, b] : edges)
     for (const std::uint32_t end : {a, b})
@@ -69,7 +53,7 @@ std::vector<double> clearances(std::span<const NetEdge> edges, std::span<const P
     const cdt::Box box = box_of(i, far);
     double least = far;
     static_cast<void>(grid.all_of_near(box, [&](std::uint32_t k) {
-      if (components.of(edges[i].first) != components.of(edges[k].first) &&
+      if (components.find(edges[i].first) != components.find(edges[k].first) &&
           boxes_meet(box, box_of(k, 0)))
         least = std::min(least, distance_between(edges[i], edges[k], places));
       return true;

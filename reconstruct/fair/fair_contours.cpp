@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "cdt/predicates.h"
+#include "mesh/adjacency.h"
 #include "mesh/admitted.h"
 #include "reconstruct/fair/clearance.h"
 #include "reconstruct/fair/contour_net.h"
@@ -54,9 +55,9 @@ class Fairing {
         edges_(neighbours_.edges()),
         components_(net_.points.size()) {
     edges_.insert(edges_.end(), contours.flat_edges.begin(), contours.flat_edges.end());
-    for (const auto& [a, b] : edges_) components_.join(a, b);
+    for (const auto& [a, b] : edges_) components_.unite(a, b);
     const auto met = find_meetings(edges_, net_.points);
-    for (const auto& [i, k] : met) components_.join(edges_[i].first, edges_[k].first);
+    for (const auto& [i, k] : met) components_.unite(edges_[i].first, edges_[k].first);
     reach_ = clearances(edges_, net_.points, components_, distance);
     halvings_.resize(net_.points.size());
     for (const auto& [a, b] : contours.flat_edges) reach_[a] = reach_[b] = 0;
@@ -160,10 +161,10 @@ class Fairing {
           area_tolerance / 2 * std::abs(areas_[i]))
         lost.push_back(net_.loop(i).front());
     std::vector<bool> is_lost(places_.size());
-    for (const std::uint32_t v : lost) is_lost[components_.of(v)] = true;
+    for (const std::uint32_t v : lost) is_lost[components_.find(v)] = true;
     bool is_changed = false;
     for (std::uint32_t v = 0; v < places_.size(); ++v) {
-      if (!is_lost[components_.of(v)] || places_[v] == net_.points[v]) continue;
+      if (!is_lost[components_.find(v)] || places_[v] == net_.points[v]) continue;
       places_[v] = net_.points[v];
       is_changed = true;
     }
@@ -173,7 +174,7 @@ class Fairing {
   const OutlineNet& net_;
   Neighbours neighbours_;
   std::vector<NetEdge> edges_;  // those of loops, and of contours that enclose nothing
-  Components components_;
+  DisjointSets components_;
   std::vector<double> reach_;
   std::vector<int> halvings_;
   std::vector<double> areas_;

@@ -15,9 +15,9 @@ using cdt::Point;
 /// Steps are as long as the shortest edge, but for that share: pixels are placed with rounding.
 constexpr double tolerance = 1e-6;
 
-class Edges {
+class ContourEdges {
  public:
-  explicit Edges(std::span<const Point> points) : points_(points) {}
+  explicit ContourEdges(std::span<const Point> points) : points_(points) {}
 
   [[nodiscard]] bool is_step(std::size_t i, double unit) const {
     const Point before = way(i + points_.size() - 1);
@@ -44,7 +44,7 @@ class Edges {
 
 void Stairs::add(const Slice& slice) {
   for (const Contour& contour : slice.contours) {
-    const Edges edges(contour.points);
+    const ContourEdges edges(contour.points);
     double unit = std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < contour.points.size(); ++i)
       if (edges.length(i) > 0) unit = std::min(unit, edges.length(i));

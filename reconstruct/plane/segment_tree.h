@@ -61,11 +61,8 @@ class SegmentTree {
   /// within it are visited. Cost: O(log n) in practice.
   template <class Visit>
   void visit_near(cdt::Point p, double limit, Visit visit) const {
-    if (nodes_.empty()) return;
-    if (turned_.empty())
-      search(p, limit, visit);
-    else
-      search_turned(p, std::min(limit, squared_reach(p, slack_at(p))), visit);
+    if (!turned_.empty()) limit = std::min(limit, squared_reach(p, slack_at(p)));
+    visit_some_near(p, limit, visit);
   }
 
   /// The same where not every segment counts: nothing but `visit` tells what is too far away.

@@ -2,6 +2,8 @@
 // Volumes in memory, and what their outlines must enclose.
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -102,6 +104,19 @@ inline std::vector<int> random_labels(std::size_t count, int labels, std::mt1993
     pixel = random() % 2 == 0 ? 0 : static_cast<int>(random() % static_cast<unsigned>(labels)) + 1;
   pixels[random() % count] = 1;  // nothing at all would be refused
   return pixels;
+}
+
+/// The volume that the tests of NRRD and MetaImage write, in millimetres: its pixels are where the
+/// header puts them.
+inline void expect_two_labels_in_place(const Stack& stack) {
+  ASSERT_EQ(stack.slices.size(), 2U);
+  EXPECT_EQ(stack.slices[0].z, 30);
+  EXPECT_EQ(stack.slices[1].z, 35);
+  EXPECT_EQ(stack.unit, "mm");
+  EXPECT_FALSE(stack.frame);
+  EXPECT_TRUE(encloses(stack.slices[0], "1", {12, 20}));
+  EXPECT_TRUE(encloses(stack.slices[1], "2", {14, 23}));
+  EXPECT_FALSE(encloses(stack.slices[0], "1", {10, 20}));
 }
 
 }  // namespace loft::io::testing

@@ -62,14 +62,7 @@ std::string problem_in(const Folder& folder, const std::string& header) {
 
 TEST(MetaImage, PixelsLieWhereTheFileHasThem) {
   const Stack stack = expected();
-  ASSERT_EQ(stack.slices.size(), 2U);
-  EXPECT_EQ(stack.slices[0].z, 30);
-  EXPECT_EQ(stack.slices[1].z, 35);
-  EXPECT_EQ(stack.unit, "mm");
-  EXPECT_FALSE(stack.frame);
-  EXPECT_TRUE(encloses(stack.slices[0], "1", {12, 20}));
-  EXPECT_TRUE(encloses(stack.slices[1], "2", {14, 23}));
-  EXPECT_FALSE(encloses(stack.slices[0], "1", {10, 20}));
+  testing::expect_two_labels_in_place(stack);
   EXPECT_THAT(stack.notes, ::testing::Contains(HasSubstr("LPS")));
 }
 

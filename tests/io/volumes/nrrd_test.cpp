@@ -55,14 +55,7 @@ std::string gzip(const std::string& bytes) {
 
 TEST(Nrrd, PixelsLieWhereTheFileHasThem) {
   const Stack stack = read(fields() + "encoding: raw\n\n" + pixels);
-  ASSERT_EQ(stack.slices.size(), 2U);
-  EXPECT_EQ(stack.slices[0].z, 30);
-  EXPECT_EQ(stack.slices[1].z, 35);
-  EXPECT_EQ(stack.unit, "mm");
-  EXPECT_FALSE(stack.frame);
-  EXPECT_TRUE(encloses(stack.slices[0], "1", {12, 20}));
-  EXPECT_TRUE(encloses(stack.slices[1], "2", {14, 23}));
-  EXPECT_FALSE(encloses(stack.slices[0], "1", {10, 20}));
+  testing::expect_two_labels_in_place(stack);
   ASSERT_FALSE(stack.notes.empty());
   EXPECT_THAT(stack.notes.front(), HasSubstr("LPS"));
 }
