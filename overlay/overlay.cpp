@@ -1,0 +1,600 @@
+// SPDX-License-Identifier: MIT
+#include "overlay/overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <sstream>
+#include <stdexcept>
+#include <utility>
+
+#include "cdt/follow.h"
+#include "cdt/predicates.h"
+#include "overlay/formula.h"
+#include "overlay/lists_by_cover.h"
+#include "overlay/windings.h"
+
+namespace loft::overlay {
+
+using cdt::TriangleId;
+using cdt::Triangulation;
+
+namespace {
+
+struct Layer {
+  std::string name;
+  FillRule rule;
+  std::vector<RingId> rings;
+};
+
+/// Where a ring is listed.
+struct Listing {
+  LayerId layer;
+  std::uint32_t place = 0;  // in the layer's rings
+};
+
+/// What is kept of an expression.
+struct Result {
+  explicit Result(Expression expression) : what(std::move(expression)), formula(what) {}
+
+  Expression what;
+  Formula formula;
+  std::vector<std::uint8_t> is_in;  // by cover
+  Border border;
+  ExactArea area;
+  ResultChange change;
+};
+
+/// Takes out what is at the same places in both: there was no change.
+void leave_out_common(std::vector<BorderEdge>& gone, std::vector<BorderEdge>& come) {
+  const auto is_before = [](const BorderEdge& a, const BorderEdge& b) { return a.is_before(b); };
+  std::ranges::sort(gone, is_before);
+  std::ranges::sort(come, is_before);
+  std::vector<BorderEdge> only_gone;
+  std::vector<BorderEdge> only_come;
+  std::ranges::set_difference(gone, come, std::back_inserter(only_gone), is_before);
+  std::ranges::set_difference(come, gone, std::back_inserter(only_come), is_before);
+  gone = std::move(only_gone);
+  come = std::move(only_come);
+}
+
+}  // namespace
+
+struct Overlay::Parts {
+  /// What a passage along an edge does to windings.
+  struct Cross {
+    Parts* parts;
+
+    WindingId operator()(EdgeId e, WindingId here) const {
+      const Triangulation& mesh = parts->mesh;
+      for (const cdt::Passage passage : mesh.passages(e)) {
+        const RingId ring = mesh.segment(passage.segment()).constraint;
+        if (mesh.ends(ring) == open) continue;
+        here = parts->windings.crossed(here, parts->listings[ring.index()].layer,
+                                       mesh.is_forward(e, passage) ? -1 : 1);
+      }
+      return here;
+    }
+  };
+
+  Parts() : follower(mesh, WindingId(0), Cross{this}) { mesh.record_changes(true); }
+
+  Triangulation mesh;
+  std::vector<Layer> layers;
+  std::vector<Listing> listings;  // by constraint
+  Windings windings;
+  std::uint32_t windings_at_rebuild = 0;
+  cdt::Follower<WindingId, Cross> follower;
+  ListsByCover covers;
+  std::vector<std::optional<Result>> results;
+  bool is_in_batch = false;
+
+  // What is asked for.
+  [[nodiscard]] Layer& known(LayerId layer) {
+    if (layer.index() >= layers.size())
+      throw std::invalid_argument("overlay: there is no such layer");
+    return layers[layer.index()];
+  }
+  [[nodiscard]] Result& known(ResultId result) {
+    if (result.index() >= results.size() || !results[result.index()])
+      throw std::invalid_argument("overlay: there is no such result");
+    return *results[result.index()];
+  }
+  void check_known(RingId ring) const {
+    if (!mesh.is_constraint(ring)) throw std::invalid_argument("overlay: there is no such ring");
+  }
+  void check_usable(LayerId layer, std::span<const Point> points) const;
+  [[nodiscard]] Region region(const Result& result) const {
+    return {.mesh = &mesh, .covers = covers.by_triangle(), .is_in = result.is_in};
+  }
+
+  // Rings.
+  void list(RingId ring, LayerId layer);
+  void unlist(RingId ring);
+
+  // After an edit.
+  void finish_edit();
+  void follow();
+  void rebuild();
+  void flood_again();
+  void cover_anew(TriangleId t);
+  void learn_truths(Result& result);
+  void update(Result& result);
+  void take_border(Result& result, EdgeId e);
+  void check_border(Result& result, EdgeId e);
+  void check_borders(Result& result, TriangleId t);
+  void build_border(Result& result);
+  void sum_up(Result& result);
+};
+
+void Overlay::Parts::check_usable(LayerId layer, std::span<const Point> points) const {
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("overlay: layer '" + layers[layer.index()].name + "', ring " +
+                                std::to_string(layers[layer.index()].rings.size()) + ": " + what);
+  };
+  if (points.empty()) fail("has no point");
+  for (const Point& p : points) {
+    if (Triangulation::is_usable(p.x) && Triangulation::is_usable(p.y)) continue;
+    std::ostringstream place;
+    place << "point " << &p - points.data() << ' ' << p
+          << " is not usable: coordinates are 0 or between 1e-50 and 1e75 in magnitude";
+    fail(place.str());
+  }
+}
+
+void Overlay::Parts::list(RingId ring, LayerId layer) {
+  if (listings.size() <= ring.index()) listings.resize(ring.index() + 1);
+  std::vector<RingId>& rings = layers[layer.index()].rings;
+  listings[ring.index()] = {layer, static_cast<std::uint32_t>(rings.size())};
+  rings.push_back(ring);
+}
+
+void Overlay::Parts::unlist(RingId ring) {
+  const auto [layer, place] = listings[ring.index()];
+  std::vector<RingId>& rings = layers[layer.index()].rings;
+  rings[place] = rings.back();
+  listings[rings[place].index()].place = place;
+  rings.pop_back();
+}
+
+void Overlay::Parts::finish_edit() {
+  if (is_in_batch) return;
+  follow();
+  constexpr std::uint32_t spare = 4096;
+  if (windings.size() > 2 * windings_at_rebuild + spare) flood_again();
+}
+
+/// Takes over what an edit did, in what it made and what changed its windings.
+void Overlay::Parts::follow() {
+  const cdt::Changes& changes = mesh.changes();
+  follower.follow(changes);
+  covers.grow(mesh.triangle_bound(), windings.cover_count());
+  for (const TriangleId t : changes.unmade) covers.set(t, nothing);
+  for (const TriangleId t : changes.made) cover_anew(t);
+  for (const TriangleId t : follower.changed()) cover_anew(t);
+  for (auto& result : results)
+    if (result) update(*result);
+}
+
+void Overlay::Parts::cover_anew(TriangleId t) { covers.set(t, windings.cover(follower[t])); }
+
+/// Everything from nothing, as after edits that are as large as all there is.
+void Overlay::Parts::rebuild() {
+  flood_again();
+  for (auto& result : results) {
+    if (!result) continue;
+    result->change.gone.assign(result->border.edges().begin(), result->border.edges().end());
+    build_border(*result);
+  }
+}
+
+/// Forgets windings and covers that are nowhere any more.
+void Overlay::Parts::flood_again() {
+  windings.forget();
+  follower.begin();
+  windings_at_rebuild = windings.size();
+  covers.clear();
+  covers.grow(mesh.triangle_bound(), windings.cover_count());
+  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i) cover_anew(TriangleId(i));
+  for (auto& result : results) {
+    if (!result) continue;
+    result->is_in.clear();
+    learn_truths(*result);
+  }
+}
+
+void Overlay::Parts::learn_truths(Result& result) {
+  for (auto c = static_cast<std::uint32_t>(result.is_in.size()); c < windings.cover_count(); ++c)
+    result.is_in.push_back(result.formula.is_true(windings.layers(CoverId(c))) ? 1 : 0);
+}
+
+void Overlay::Parts::update(Result& result) {
+  learn_truths(result);
+  result.change = {};
+  const cdt::Changes& changes = mesh.changes();
+  for (const TriangleId t : changes.unmade)
+    for (unsigned corner = 0; corner < 3; ++corner)
+      take_border(result, Triangulation::edge(t, corner));
+  for (const TriangleId t : changes.made) check_borders(result, t);
+  for (const TriangleId t : follower.changed()) check_borders(result, t);
+  sum_up(result);
+}
+
+void Overlay::Parts::take_border(Result& result, EdgeId e) {
+  if (const auto taken = result.border.take(e)) result.change.gone.push_back(*taken);
+}
+
+/// Whether an edge is on the border may have changed.
+void Overlay::Parts::check_border(Result& result, EdgeId e) {
+  const bool is_border = region(result).has_border(e);
+  if (is_border == result.border.has(e)) return;
+  if (!is_border) return take_border(result, e);
+  const BorderEdge edge{e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))};
+  result.border.add(edge);
+  result.change.come.push_back(edge);
+}
+
+void Overlay::Parts::check_borders(Result& result, TriangleId t) {
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const EdgeId e = Triangulation::edge(t, corner);
+    check_border(result, e);
+    check_border(result, mesh.twin(e));
+  }
+}
+
+/// All of a result's border, which is in `come` then, as what there was is in `gone`.
+void Overlay::Parts::build_border(Result& result) {
+  result.border.clear();
+  result.change.come.clear();
+  const Region where = region(result);
+  for (std::uint32_t c = 0; c < result.is_in.size(); ++c) {
+    if (result.is_in[c] == 0) continue;
+    covers.for_each(CoverId(c), [&](TriangleId t) {
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        const EdgeId e = Triangulation::edge(t, corner);
+        if (where.has_right_of(e)) continue;
+        result.border.add({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
+      }
+    });
+  }
+  result.change.come.assign(result.border.edges().begin(), result.border.edges().end());
+  sum_up(result);
+}
+
+void Overlay::Parts::sum_up(Result& result) {
+  ResultChange& change = result.change;
+  leave_out_common(change.gone, change.come);
+  change.area = {};
+  for (const BorderEdge& edge : change.gone) change.area.subtract_piece(edge.from, edge.to);
+  for (const BorderEdge& edge : change.come) change.area.add_piece(edge.from, edge.to);
+  result.area += change.area;
+}
+
+Overlay::Overlay() : parts_(std::make_unique<Parts>()) {}
+Overlay::~Overlay() = default;
+Overlay::Overlay(Overlay&&) noexcept = default;
+Overlay& Overlay::operator=(Overlay&&) noexcept = default;
+
+// Layers.
+
+LayerId Overlay::add_layer(std::string name, FillRule rule) {
+  parts_->layers.push_back({std::move(name), rule, {}});
+  parts_->windings.add_layer(rule);
+  return LayerId(static_cast<std::uint32_t>(parts_->layers.size() - 1));
+}
+
+std::size_t Overlay::layer_count() const { return parts_->layers.size(); }
+const std::string& Overlay::name(LayerId layer) const { return parts_->known(layer).name; }
+FillRule Overlay::rule(LayerId layer) const { return parts_->known(layer).rule; }
+std::span<const RingId> Overlay::rings(LayerId layer) const { return parts_->known(layer).rings; }
+LayerId Overlay::layer(RingId ring) const { return parts_->listings[ring.index()].layer; }
+
+// Edits.
+
+RingId Overlay::insert(LayerId layer, std::span<const Point> points, Ends ends) {
+  (void)parts_->known(layer);
+  parts_->check_usable(layer, points);
+  const RingId ring = parts_->mesh.insert(points, ends);
+  parts_->list(ring, layer);
+  parts_->finish_edit();
+  return ring;
+}
+
+std::vector<RingId> Overlay::insert(std::span<const Shape> shapes) {
+  std::vector<cdt::Polyline> polylines;
+  std::size_t point_count = 0;
+  for (const Shape& shape : shapes) {
+    (void)parts_->known(shape.layer);
+    parts_->check_usable(shape.layer, shape.points);
+    polylines.push_back({shape.points, shape.ends});
+    point_count += shape.points.size();
+  }
+  // As much again as there is: it costs less to begin anew than to follow.
+  const bool is_large = !parts_->is_in_batch && point_count > parts_->mesh.vertex_count();
+  if (is_large) parts_->mesh.record_changes(false);
+  const std::vector<RingId> rings = parts_->mesh.insert(polylines);
+  for (std::size_t i = 0; i < rings.size(); ++i) parts_->list(rings[i], shapes[i].layer);
+  if (is_large) {
+    parts_->mesh.record_changes(true);
+    parts_->rebuild();
+  } else {
+    parts_->finish_edit();
+  }
+  return rings;
+}
+
+void Overlay::move(RingId ring, std::span<const Point> points) {
+  parts_->check_known(ring);
+  parts_->check_usable(layer(ring), points);
+  parts_->mesh.move(ring, points);
+  parts_->finish_edit();
+}
+
+void Overlay::translate(RingId ring, Point by) {
+  parts_->check_known(ring);
+  std::vector<Point> moved = parts_->mesh.points(ring);
+  for (Point& p : moved) p = {p.x + by.x, p.y + by.y};
+  parts_->check_usable(layer(ring), moved);
+  parts_->mesh.translate(ring, by);
+  parts_->finish_edit();
+}
+
+void Overlay::remove(RingId ring) {
+  parts_->check_known(ring);
+  parts_->unlist(ring);
+  parts_->mesh.remove(ring);
+  parts_->finish_edit();
+}
+
+void Overlay::translate(LayerId layer, Point by) { transform(layer, {.x0 = by.x, .y0 = by.y}); }
+
+void Overlay::transform(LayerId layer, const Affine& map) {
+  std::vector<std::vector<Point>> moved;
+  for (const RingId ring : parts_->known(layer).rings) {
+    moved.push_back(parts_->mesh.points(ring));
+    for (Point& p : moved.back()) p = map(p);
+    parts_->check_usable(layer, moved.back());
+  }
+  const bool is_own_batch = !parts_->is_in_batch;
+  if (is_own_batch) begin_batch();
+  const std::vector<RingId>& rings = parts_->known(layer).rings;
+  for (std::size_t i = 0; i < rings.size(); ++i) parts_->mesh.move(rings[i], moved[i]);
+  if (is_own_batch) end_batch();
+}
+
+void Overlay::clear(LayerId layer) {
+  Layer& one = parts_->known(layer);
+  const bool is_own_batch = !parts_->is_in_batch;
+  if (is_own_batch) begin_batch();
+  for (const RingId ring : one.rings) parts_->mesh.remove(ring);
+  one.rings.clear();
+  if (is_own_batch) end_batch();
+}
+
+void Overlay::begin_batch() {
+  parts_->is_in_batch = true;
+  parts_->mesh.begin_batch();
+}
+
+void Overlay::end_batch() {
+  parts_->mesh.end_batch();
+  parts_->is_in_batch = false;
+  parts_->finish_edit();
+}
+
+// Results.
+
+namespace {
+
+/// A result of an expression, which is checked.
+Result checked_result(Expression what, std::size_t layer_count) {
+  for (const Expression::Term& term : what.terms())
+    if (term.kind == Expression::Term::Kind::layer && term.layer.index() >= layer_count)
+      throw std::invalid_argument("overlay: the expression has a layer that is not there");
+  Result result(std::move(what));
+  if (result.formula.is_true_outside())
+    throw std::invalid_argument(
+        "overlay: the expression is true where no layer is, so without bounds; subtract from a "
+        "frame instead");
+  return result;
+}
+
+}  // namespace
+
+ResultId Overlay::watch(Expression what) {
+  Result result = checked_result(std::move(what), layer_count());
+  parts_->learn_truths(result);
+  parts_->build_border(result);
+  auto& results = parts_->results;
+  const auto spare = std::ranges::find_if(results, [](const auto& other) { return !other; });
+  const auto number = static_cast<std::uint32_t>(spare - results.begin());
+  if (spare == results.end()) results.emplace_back();
+  results[number].emplace(std::move(result));
+  return ResultId(number);
+}
+
+void Overlay::set(ResultId result, Expression what) {
+  Result& one = parts_->known(result);
+  Result other = checked_result(std::move(what), layer_count());
+  parts_->learn_truths(other);
+  one.what = std::move(other.what);
+  one.formula = std::move(other.formula);
+  one.change = {};
+  const std::vector<std::uint8_t> before = std::exchange(one.is_in, std::move(other.is_in));
+  for (std::uint32_t c = 0; c < one.is_in.size(); ++c)
+    if (one.is_in[c] != (c < before.size() ? before[c] : 0))
+      parts_->covers.for_each(CoverId(c), [&](TriangleId t) { parts_->check_borders(one, t); });
+  parts_->sum_up(one);
+}
+
+void Overlay::unwatch(ResultId result) {
+  (void)parts_->known(result);
+  parts_->results[result.index()].reset();
+}
+
+const Expression& Overlay::expression(ResultId result) const { return parts_->known(result).what; }
+const ResultChange& Overlay::change(ResultId result) const { return parts_->known(result).change; }
+const ExactArea& Overlay::area(ResultId result) const { return parts_->known(result).area; }
+
+std::span<const BorderEdge> Overlay::border(ResultId result) const {
+  return parts_->known(result).border.edges();
+}
+
+std::vector<TracedPolygon> Overlay::traces(ResultId result) const {
+  const Result& one = parts_->known(result);
+  return trace(parts_->region(one), one.border.edges());
+}
+
+MultiPolygon Overlay::polygons(ResultId result, Vertices vertices) const {
+  MultiPolygon polygons;
+  const bool is_short = vertices == Vertices::needed;
+  for (const TracedPolygon& traced : traces(result)) {
+    Polygon& polygon = polygons.emplace_back();
+    polygon.outer = points_of(parts_->mesh, traced.outer, is_short);
+    for (const TracedRing& hole : traced.holes)
+      polygon.holes.push_back(points_of(parts_->mesh, hole, is_short));
+  }
+  return polygons;
+}
+
+std::vector<Ring> Overlay::changed_rings(ResultId result, Vertices vertices) const {
+  const Result& one = parts_->known(result);
+  std::vector<Ring> rings;
+  for (const TracedRing& ring : trace_through(parts_->region(one), one.change.come))
+    rings.push_back(points_of(parts_->mesh, ring, vertices == Vertices::needed));
+  std::ranges::sort(rings);
+  return rings;
+}
+
+bool Overlay::is_in(ResultId result, TriangleId t) const {
+  return parts_->region(parts_->known(result)).has(t);
+}
+
+// Covers.
+
+CoverId Overlay::cover(TriangleId t) const { return parts_->covers.by_triangle()[t.index()]; }
+
+std::span<const LayerId> Overlay::layers(CoverId cover) const {
+  return parts_->windings.layers(cover);
+}
+
+std::size_t Overlay::cover_bound() const { return parts_->windings.cover_count(); }
+
+std::vector<TriangleId> Overlay::triangles(CoverId cover) const {
+  std::vector<TriangleId> result;
+  parts_->covers.for_each(cover, [&](TriangleId t) { result.push_back(t); });
+  return result;
+}
+
+namespace {
+
+/// What is in all of some covers, and what is in one of them and not in all.
+class CoverAround {
+ public:
+  void add(std::span<const LayerId> layers) {
+    ++count_;
+    met_.insert(met_.end(), layers.begin(), layers.end());
+  }
+
+  [[nodiscard]] Cover summed_up() {
+    std::ranges::sort(met_);
+    Cover result;
+    for (auto at = met_.begin(); at != met_.end();) {
+      const auto next = std::upper_bound(at, met_.end(), *at);
+      (next - at == count_ ? result.inside : result.on_border_of).push_back(*at);
+      at = next;
+    }
+    return result;
+  }
+
+ private:
+  std::ptrdiff_t count_ = 0;
+  std::vector<LayerId> met_;
+};
+
+}  // namespace
+
+Cover Overlay::cover(Point p) const {
+  using Kind = cdt::Location::Kind;
+  const Triangulation& mesh = parts_->mesh;
+  const cdt::Location place = mesh.locate(p);
+  CoverAround around;
+  const auto add_left_of = [&](EdgeId e) { around.add(layers(cover(Triangulation::triangle(e)))); };
+  switch (place.kind) {
+    case Kind::nowhere:
+    case Kind::outside:
+      break;
+    case Kind::triangle:
+      add_left_of(place.edge);
+      break;
+    case Kind::edge:
+      add_left_of(place.edge);
+      add_left_of(mesh.twin(place.edge));
+      break;
+    case Kind::vertex:
+      for (EdgeId e = place.edge;;) {
+        add_left_of(e);
+        if ((e = mesh.rotated(e)) == place.edge) break;
+      }
+  }
+  return around.summed_up();
+}
+
+namespace {
+
+double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
+
+double last_place(double x) {
+  const double size = std::abs(x);
+  return std::nextafter(size, std::numeric_limits<double>::infinity()) - size;
+}
+
+/// Whether a segment leads through a vertex that is not exactly on it.
+bool bends_at(const Triangulation& mesh, cdt::SegmentId s, cdt::VertexId v) {
+  const cdt::Segment& segment = mesh.segment(s);
+  if (segment.from == v || segment.to == v) return false;
+  return cdt::orient(mesh.point(segment.from), mesh.point(segment.to), mesh.point(v)) != 0;
+}
+
+}  // namespace
+
+double Overlay::area_error_bound() const {
+  const Triangulation& mesh = parts_->mesh;
+  double sum = 0;
+  for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i) {
+    const EdgeId e(i);
+    if (!mesh.is_triangle(Triangulation::triangle(e)) || !mesh.is_constrained(e)) continue;
+    const Point at = mesh.point(mesh.from(e));
+    const double reach = (last_place(at.x) + last_place(at.y)) / 2;
+    for (const cdt::Passage passage : mesh.passages(e))
+      if (bends_at(mesh, passage.segment(), mesh.from(e)))
+        sum += reach * distance(at, mesh.point(mesh.to(e)));
+  }
+  for (const cdt::Snap& snap : mesh.snaps()) {
+    const cdt::Segment& segment = mesh.segment(snap.segment);
+    const Point from = mesh.point(segment.from);
+    const Point to = mesh.point(segment.to);
+    const double largest =
+        std::max({std::abs(from.x), std::abs(from.y), std::abs(to.x), std::abs(to.y)});
+    sum += 0x1p-50 * largest * distance(from, to);
+  }
+  return sum * (1 + 0x1p-20);
+}
+
+std::vector<RingId> Overlay::rings_without_inside() const {
+  const Triangulation& mesh = parts_->mesh;
+  std::vector<RingId> result;
+  for (std::uint32_t i = 0; i < mesh.constraint_bound(); ++i) {
+    const RingId ring(i);
+    if (!mesh.is_constraint(ring) || mesh.ends(ring) == open) continue;
+    std::vector<Point> points = mesh.points(ring);
+    std::ranges::sort(points);
+    if (std::ranges::unique(points).begin() - points.begin() < 3) result.push_back(ring);
+  }
+  return result;
+}
+
+const Triangulation& Overlay::triangulation() const { return parts_->mesh; }
+
+}  // namespace loft::overlay

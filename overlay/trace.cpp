@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: MIT
+#include "overlay/trace.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "cdt/predicates.h"
+#include "overlay/flat_map.h"
+
+namespace loft::overlay {
+
+using cdt::Triangulation;
+using cdt::VertexId;
+
+namespace {
+
+/// Walks along a region's border.
+class Tracer {
+ public:
+  explicit Tracer(const Region& region) : region_(&region), mesh_(region.mesh) {}
+
+  /// Once around from an edge, unless that has been walked. The walk's number, or `none`.
+  std::uint32_t walk(EdgeId start) {
+    if (walk_of_.find(start.index()) != FlatMap::none) return FlatMap::none;
+    const std::uint32_t number = walk_count_++;
+    path_.clear();
+    EdgeId e = start;
+    do {
+      walk_of_.set(e.index(), number);
+      step(e);
+      e = next(e);
+    } while (e != start);
+    finish_ring();
+    return number;
+  }
+
+  /// The simple rings of the last walk. They are given away.
+  [[nodiscard]] std::vector<TracedRing> take_rings() { return std::exchange(rings_, {}); }
+
+  [[nodiscard]] bool is_counter_clockwise(const TracedRing& ring) const {
+    return cdt::orient(from(ring.back()), from(ring.front()), to(ring.front())) > 0;
+  }
+
+  /// The walk that is met first from the smallest point of a walk of holes, to the left of it.
+  [[nodiscard]] std::uint32_t walk_left_of(std::span<const TracedRing> holes) const {
+    EdgeId e = edge_to_left(holes);
+    while (true) {
+      // Around the vertex that e leads to, through the region, either to its border or back.
+      const EdgeId back = mesh_->twin(e);
+      EdgeId left = back;
+      for (EdgeId at = back;;) {
+        if (!region_->has_left_of(at)) return walk_of_.find(mesh_->twin(at).index());
+        if (to(at) < to(left)) left = at;
+        at = mesh_->rotated(at);
+        if (at == back) break;
+      }
+      e = left;
+    }
+  }
+
+  [[nodiscard]] Point from(EdgeId e) const { return mesh_->point(mesh_->from(e)); }
+  [[nodiscard]] Point to(EdgeId e) const { return mesh_->point(mesh_->to(e)); }
+
+ private:
+  /// The border edge that follows, the region between them not left.
+  [[nodiscard]] EdgeId next(EdgeId e) const {
+    EdgeId result = Triangulation::next(e);
+    while (region_->has_right_of(result)) result = Triangulation::next(mesh_->twin(result));
+    return result;
+  }
+
+  /// Adds an edge to the walk. Where it starts from a vertex that the walk has left before, what is
+  /// between is a ring.
+  void step(EdgeId e) {
+    const std::uint64_t vertex = mesh_->from(e).index();
+    if (const std::uint32_t first = place_of_.find(vertex); first != FlatMap::none) cut_off(first);
+    place_of_.set(vertex, static_cast<std::uint32_t>(path_.size()));
+    path_.push_back(e);
+  }
+
+  void finish_ring() { cut_off(0); }
+
+  void cut_off(std::uint32_t first) {
+    for (std::size_t i = first; i < path_.size(); ++i)
+      place_of_.erase(mesh_->from(path_[i]).index());
+    TracedRing ring(path_.begin() + first, path_.end());
+    path_.resize(first);
+    std::ranges::rotate(ring,
+                        std::ranges::min_element(ring, {}, [&](EdgeId e) { return from(e); }));
+    rings_.push_back(std::move(ring));
+  }
+
+  /// From the smallest point of a walk of holes, an edge through the region to a smaller one.
+  [[nodiscard]] EdgeId edge_to_left(std::span<const TracedRing> holes) const {
+    const TracedRing* lowest = &holes.front();
+    for (const TracedRing& ring : holes)
+      if (from(ring.front()) < from(lowest->front())) lowest = &ring;
+    const Point place = from(lowest->front());
+    // All the walk is to the right of that point, so is all else of the border there: what is to
+    // the left of it is region, in one piece.
+    EdgeId e = lowest->front();
+    while (place < to(e)) e = mesh_->rotated(e);
+    return e;
+  }
+
+  const Region* region_;
+  const Triangulation* mesh_;
+  std::uint32_t walk_count_ = 0;
+  FlatMap walk_of_;   // by edge
+  FlatMap place_of_;  // by vertex: where in path_
+  std::vector<EdgeId> path_;
+  std::vector<TracedRing> rings_;
+};
+
+/// Sorts rings into polygons.
+class Sorter {
+ public:
+  explicit Sorter(const Region& region) : tracer_(region) {}
+
+  std::vector<TracedPolygon> polygons(std::span<const BorderEdge> border) {
+    for (const BorderEdge& edge : border)
+      if (tracer_.walk(edge.edge) != FlatMap::none) add_walk(tracer_.take_rings());
+    settle_holes();
+    for (TracedPolygon& polygon : polygons_)
+      std::ranges::sort(polygon.holes,
+                        [&](const auto& a, const auto& b) { return is_before(a, b); });
+    std::ranges::sort(polygons_,
+                      [&](const auto& a, const auto& b) { return is_before(a.outer, b.outer); });
+    return std::move(polygons_);
+  }
+
+ private:
+  struct Holes {
+    std::uint32_t walk;
+    std::vector<TracedRing> rings;
+  };
+
+  [[nodiscard]] bool is_before(const TracedRing& a, const TracedRing& b) const {
+    const Point from_a = tracer_.from(a.front());
+    const Point from_b = tracer_.from(b.front());
+    return from_a != from_b ? from_a < from_b : tracer_.to(a.front()) < tracer_.to(b.front());
+  }
+
+  void add_walk(std::vector<TracedRing> rings) {
+    const auto walk = static_cast<std::uint32_t>(polygon_of_.size());
+    const auto outer = std::ranges::find_if(
+        rings, [&](const TracedRing& ring) { return tracer_.is_counter_clockwise(ring); });
+    if (outer == rings.end()) {
+      polygon_of_.push_back(FlatMap::none);
+      holes_.push_back({walk, std::move(rings)});
+      return;
+    }
+    polygon_of_.push_back(static_cast<std::uint32_t>(polygons_.size()));
+    TracedPolygon polygon{.outer = std::move(*outer), .holes = {}};
+    rings.erase(outer);
+    polygon.holes = std::move(rings);
+    polygons_.push_back(std::move(polygon));
+  }
+
+  /// From left to right: what is met on the left of holes has its polygon already.
+  void settle_holes() {
+    const auto smallest = [&](const Holes& holes) {
+      Point result = tracer_.from(holes.rings.front().front());
+      for (const TracedRing& ring : holes.rings)
+        result = std::min(result, tracer_.from(ring.front()));
+      return result;
+    };
+    std::ranges::sort(holes_, {}, smallest);
+    for (Holes& holes : holes_) {
+      const std::uint32_t polygon = polygon_of_[tracer_.walk_left_of(holes.rings)];
+      polygon_of_[holes.walk] = polygon;
+      std::ranges::move(holes.rings, std::back_inserter(polygons_[polygon].holes));
+    }
+  }
+
+  Tracer tracer_;
+  std::vector<TracedPolygon> polygons_;
+  std::vector<std::uint32_t> polygon_of_;  // by walk
+  std::vector<Holes> holes_;
+};
+
+/// Whether a segment runs along both edges, the second straight on from the first.
+bool runs_on(const Triangulation& mesh, EdgeId before, EdgeId after) {
+  const auto has_segment = [&](cdt::Passage passage) {
+    return std::ranges::any_of(mesh.passages(after), [&](cdt::Passage other) {
+      return other.segment() == passage.segment();
+    });
+  };
+  return std::ranges::any_of(mesh.passages(before), has_segment) &&
+         cdt::orient(mesh.point(mesh.from(before)), mesh.point(mesh.from(after)),
+                     mesh.point(mesh.to(after))) == 0;
+}
+
+}  // namespace
+
+std::vector<TracedPolygon> trace(const Region& region, std::span<const BorderEdge> border) {
+  return Sorter(region).polygons(border);
+}
+
+std::vector<TracedRing> trace_through(const Region& region, std::span<const BorderEdge> some) {
+  Tracer tracer(region);
+  for (const BorderEdge& edge : some) tracer.walk(edge.edge);
+  return tracer.take_rings();
+}
+
+Ring points_of(const Triangulation& mesh, const TracedRing& ring, bool leave_out_straight) {
+  Ring points;
+  points.reserve(ring.size());
+  EdgeId before = ring.back();
+  for (const EdgeId e : ring) {
+    if (!leave_out_straight || !runs_on(mesh, before, e))
+      points.push_back(mesh.point(mesh.from(e)));
+    before = e;
+  }
+  return points;
+}
+
+}  // namespace loft::overlay

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+#include "overlay/windings.h"
+
+#include <algorithm>
+
+namespace loft::overlay {
+
+void Windings::forget() {
+  lists_ = {};
+  covers_of_.clear();
+  covers_ = {};
+  crossings_.clear();
+  changed_.clear();
+  (void)number_of_changed();
+}
+
+WindingId Windings::crossed(WindingId here, LayerId layer, int step) {
+  const std::uint64_t key =
+      std::uint64_t{here.index()} << 32 | layer.index() << 1 | static_cast<unsigned>(step > 0);
+  if (const std::uint32_t known = crossings_.find(key); known != FlatMap::none)
+    return WindingId(known);
+  const WindingId beyond = with(here, layer, step);
+  crossings_.set(key, beyond.index());
+  return beyond;
+}
+
+WindingId Windings::with(WindingId here, LayerId layer, int step) {
+  const auto list = lists_[here.index()];
+  changed_.assign(list.begin(), list.end());
+  const auto at = std::lower_bound(changed_.begin(), changed_.end(), layer,
+                                   [](const Turns& turns, LayerId l) { return turns.layer < l; });
+  if (at == changed_.end() || at->layer != layer)
+    changed_.insert(at, {layer, turned(layer, 0, step)});
+  else if (const int times = turned(layer, at->times, step); times != 0)
+    at->times = times;
+  else
+    changed_.erase(at);
+  return number_of_changed();
+}
+
+int Windings::turned(LayerId layer, int times, int step) const {
+  if (rules_[layer.index()] == FillRule::even_odd) return 1 - times;
+  return times + step;
+}
+
+WindingId Windings::number_of_changed() {
+  const WindingId result(lists_.number_of(changed_));
+  if (result.index() == covers_of_.size()) {
+    inside_.clear();
+    for (const Turns& turns : changed_)
+      if (is_inside(rules_[turns.layer.index()], turns.times)) inside_.push_back(turns.layer);
+    covers_of_.emplace_back(covers_.number_of(inside_));
+  }
+  return result;
+}
+
+}  // namespace loft::overlay
