@@ -167,7 +167,15 @@ struct Quotient {
 namespace detail {
 
 int orient_exact(Point a, Point b, Point c) {
-  return cross(exact(difference(a, c)), exact(difference(b, c))).sign();
+  const auto ac = difference(a, c);
+  const auto bc = difference(b, c);
+  const auto [area, error] = approximate_cross(ac, bc);
+  if (area.high > error) return 1;
+  if (area.high < -error) return -1;
+  // On grids it is a multiple of something, and often certain to be less: they are in one line.
+  const double step = std::min(unit(ac), unit(bc));
+  if (error + std::abs(area.high) < step * step) return 0;
+  return cross(exact(ac), exact(bc)).sign();
 }
 
 int in_circle_exact(Point a, Point b, Point c, Point d) {

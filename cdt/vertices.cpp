@@ -396,12 +396,22 @@ void Triangulation::flip_away(EdgeId e, VertexId v, VertexId d) {
   vertex_edges_[d.index()] = edge(u, 0);
 }
 
-/// A new vertex on an edge, or so near that it bends it.
+/// Whether the circle through the corners left of e holds a place.
+bool Triangulation::surrounds(EdgeId e, Point place) const {
+  if (apex(e) == infinite) return false;
+  return in_circle(point(from(e)), point(to(e)), point(apex(e)), place) > 0;
+}
+
+/// A new vertex on an edge, or so near that it bends it. In the circles of both triangles there it
+/// is joined to its neighbours by edges that are Delaunay, as any point in a triangle is (Lawson):
+/// each of them has a circle inside that of a triangle which made way. If only rounding has put it
+/// beside the edge, it is in both but for the flattest ones.
 VertexId Triangulation::split_edge_at(EdgeId e, Point place) {
-  const bool is_straight = orient(point(from(e)), point(to(e)), place) == 0;
+  const bool is_clear = surrounds(e, place) && surrounds(twin(e), place);
+  const bool is_bent = !is_clear && orient(point(from(e)), point(to(e)), place) != 0;
   const VertexId v = new_vertex(place);
   split_edge(e, v);
-  if (!is_straight) {
+  if (is_bent) {
     is_flat_ = false;
     push_star(v);
     // What fan_out() has seen holds for as long as nothing around has changed.
