@@ -344,8 +344,10 @@ std::optional<Point> Triangulation::crossing_point(EdgeId e, SegmentId s) const 
 
 /// The ends of a segment in the order of their coordinates.
 std::pair<Point, Point> Triangulation::ends_of(SegmentId s) const {
-  const Segment& segment = this->segment(s);
-  return std::minmax({point(segment.from), point(segment.to)});
+  const Point a = point(segment(s).from);
+  const Point b = point(segment(s).to);
+  if (b < a) return {b, a};
+  return {a, b};
 }
 
 /// The vertex of the two triangles beside e that is nearest to a place; e is led through it.
