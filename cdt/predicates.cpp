@@ -95,8 +95,11 @@ struct Approximate {
   double error;
 };
 
+/// Where products may have underflowed the error is infinite.
 Approximate approximate_cross(const Vector<TwoTerms>& a, const Vector<TwoTerms>& b) {
-  return {cross(a, b), doubled_rounding * reach(a) * reach(b)};
+  const double error = doubled_rounding * reach(a) * reach(b);
+  const bool is_sound = error >= std::numeric_limits<double>::min();
+  return {cross(a, b), is_sound ? error : std::numeric_limits<double>::infinity()};
 }
 
 /// Their quotient, where the denominator is certain enough. With D for that and N for the numerator
@@ -117,10 +120,12 @@ std::optional<Approximate> quotient(const Approximate& numerator, const Approxim
 
 /// start + share * way rounded to double where the error of the share leaves no doubt.
 std::optional<double> rounded_advance(double start, const Approximate& share, TwoTerms way) {
+  if (way.high == 0) return start + 0.0;  // never -0
   const TwoTerms advance = share.value * way;
   const auto [high, low] = two_sum(start, advance.high);
   const double slack = 2 * (std::abs(way.high) * share.error +
                             doubled_rounding * (std::abs(start) + std::abs(advance.high)));
+  if (slack < std::numeric_limits<double>::min()) return std::nullopt;  // it has underflowed
   return certain_rounding({high, low + advance.low}, slack);
 }
 
