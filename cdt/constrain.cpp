@@ -93,10 +93,12 @@ VertexId Triangulation::meet(EdgeId e, SegmentId s) {
 
 /// Where s crosses all segments along e, if that is one place.
 std::optional<Point> Triangulation::common_crossing(EdgeId e, SegmentId s) const {
-  const auto [a, b] = ends_of(s);
+  const Point a = point(segment(s).from);
+  const Point b = point(segment(s).to);
   std::optional<Point> place;
   for (const Passage passage : passages(e)) {
-    const auto [c, d] = ends_of(passage.segment());
+    const Point c = point(segment(passage.segment()).from);
+    const Point d = point(segment(passage.segment()).to);
     if (!crosses(a, b, c, d)) return {};
     const Point here = intersection(a, b, c, d);
     if (place && here != *place) return {};

@@ -421,7 +421,7 @@ class Triangulation {
   void extend(EdgeId end_to_infinity, VertexId v);
   void split_triangle(TriangleId t, VertexId v);
   void split_edge(EdgeId e, VertexId v);
-  [[nodiscard]] bool surrounds(EdgeId e, Point place) const;
+  [[nodiscard]] bool is_in_both_circles(EdgeId e, Point place) const;
   [[nodiscard]] VertexId split_edge_at(EdgeId e, Point place);
   void fan_out(VertexId v);
   [[nodiscard]] bool is_crowded_by(EdgeId e, Point place) const;
