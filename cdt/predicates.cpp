@@ -47,6 +47,15 @@ Vector<TwoTerms> difference(Point a, Point b) { return {two_diff(a.x, b.x), two_
 
 ExactVector exact(const Vector<TwoTerms>& a) { return {Expansion<2>(a.x), Expansion<2>(a.y)}; }
 
+/// Whether one term each is enough.
+bool is_short(const Vector<TwoTerms>& a) { return a.x.low == 0 && a.y.low == 0; }
+
+/// Which of two results of operations is larger: rounding keeps their order.
+int compare(TwoTerms a, TwoTerms b) {
+  if (a.high != b.high) return a.high > b.high ? 1 : -1;
+  return a.low == b.low ? 0 : a.low > b.low ? 1 : -1;
+}
+
 /// A bound for the length, in plain precision.
 double reach(const Vector<TwoTerms>& a) { return std::abs(a.x.high) + std::abs(a.y.high); }
 
@@ -183,12 +192,11 @@ namespace detail {
 int orient_exact(Point a, Point b, Point c) {
   const auto ac = difference(a, c);
   const auto bc = difference(b, c);
+  if (is_short(ac) && is_short(bc))
+    return compare(two_product(ac.x.high, bc.y.high), two_product(ac.y.high, bc.x.high));
   const auto [area, error] = approximate_cross(ac, bc);
   if (area.high > error) return 1;
   if (area.high < -error) return -1;
-  // On grids it is a multiple of something, and often certain to be less: they are in one line.
-  const double step = std::min(unit(ac), unit(bc));
-  if (error + std::abs(area.high) < step * step) return 0;
   return cross(exact(ac), exact(bc)).sign();
 }
 
