@@ -43,7 +43,7 @@ planar        io/planar/*                    bytes
 session       io/session/*                   stacks
 io            io/{maps,meshes,polylines,stack,stack_file,stack_writer,surfaces,triangulations}     gltf planar session
 
-words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,terminal}  io
+words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words
 server        app/server/*                   capture
 commands      app/commands/*                 server

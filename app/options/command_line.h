@@ -31,6 +31,7 @@ class CommandLine {
   ViewCommand view_;
   SessionCommand session_;
   TriangulateCommand triangulate_;
+  OverlayCommand overlay_;
   CheckCommand check_;
   InfoCommand info_;
   ConvertCommand convert_;
