@@ -27,6 +27,19 @@ bool is_none(const Term& term) { return term.kind == Kind::exactly && term.count
 
 }  // namespace
 
+Expression Expression::of(std::vector<Term> terms) {
+  std::size_t height = 0;  // of the stack of answers
+  for (const Term& term : terms) {
+    const std::size_t taken = term.kind == Kind::layer ? 0 : term.operands;
+    if (taken > height) throw std::invalid_argument("expression: operands are missing");
+    height = height - taken + 1;
+  }
+  if (height != 1) throw std::invalid_argument("expression: there is not one answer");
+  Expression result;
+  result.terms_ = std::move(terms);
+  return result;
+}
+
 void Expression::apply(Kind kind, std::uint32_t operands, std::uint32_t count) {
   terms_.push_back({.kind = kind, .layer = {}, .operands = operands, .count = count});
 }

@@ -41,6 +41,10 @@ class Expression {
   Expression(LayerId layer)  // NOLINT(google-explicit-constructor): a layer is an expression
       : terms_{{.kind = Term::Kind::layer, .layer = layer}} {}
 
+  /// Of terms that were put in order by the caller. Throws std::invalid_argument unless each
+  /// operation finds its operands, and one answer is left.
+  [[nodiscard]] static Expression of(std::vector<Term> terms);
+
   friend Expression operator|(Expression a, const Expression& b);
   friend Expression operator&(Expression a, const Expression& b);
   friend Expression operator-(Expression a, const Expression& b);

@@ -11,6 +11,7 @@
 
 #include "cdt/follow.h"
 #include "cdt/predicates.h"
+#include "overlay/distance.h"
 #include "overlay/formula.h"
 #include "overlay/lists_by_cover.h"
 #include "overlay/windings.h"
@@ -40,7 +41,7 @@ struct Result {
 
   Expression what;
   Formula formula;
-  std::vector<std::uint8_t> is_in;  // by cover
+  std::vector<std::uint32_t> is_in;  // by cover: 1 or 0
   Border border;
   ExactArea area;
   ResultChange change;
@@ -105,8 +106,8 @@ struct Overlay::Parts {
     if (!mesh.is_constraint(ring)) throw std::invalid_argument("overlay: there is no such ring");
   }
   void check_usable(LayerId layer, std::span<const Point> points) const;
-  [[nodiscard]] Region region(const Result& result) const {
-    return {.mesh = &mesh, .covers = covers.by_triangle(), .is_in = result.is_in};
+  [[nodiscard]] Regions region(const Result& result) const {
+    return {.mesh = &mesh, .covers = covers.by_triangle(), .region_of = result.is_in};
   }
 
   // Rings.
@@ -247,13 +248,13 @@ void Overlay::Parts::check_borders(Result& result, TriangleId t) {
 void Overlay::Parts::build_border(Result& result) {
   result.border.clear();
   result.change.come.clear();
-  const Region where = region(result);
+  const Regions where = region(result);
   for (std::uint32_t c = 0; c < result.is_in.size(); ++c) {
     if (result.is_in[c] == 0) continue;
     covers.for_each(CoverId(c), [&](TriangleId t) {
       for (unsigned corner = 0; corner < 3; ++corner) {
         const EdgeId e = Triangulation::edge(t, corner);
-        if (where.has_right_of(e)) continue;
+        if (where.right_of(e) != 0) continue;
         result.border.add({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
       }
     });
@@ -421,7 +422,7 @@ void Overlay::set(ResultId result, Expression what) {
   one.what = std::move(other.what);
   one.formula = std::move(other.formula);
   one.change = {};
-  const std::vector<std::uint8_t> before = std::exchange(one.is_in, std::move(other.is_in));
+  const std::vector<std::uint32_t> before = std::exchange(one.is_in, std::move(other.is_in));
   for (std::uint32_t c = 0; c < one.is_in.size(); ++c)
     if (one.is_in[c] != (c < before.size() ? before[c] : 0))
       parts_->covers.for_each(CoverId(c), [&](TriangleId t) { parts_->check_borders(one, t); });
@@ -448,13 +449,8 @@ std::vector<TracedPolygon> Overlay::traces(ResultId result) const {
 
 MultiPolygon Overlay::polygons(ResultId result, Vertices vertices) const {
   MultiPolygon polygons;
-  const bool is_short = vertices == Vertices::needed;
-  for (const TracedPolygon& traced : traces(result)) {
-    Polygon& polygon = polygons.emplace_back();
-    polygon.outer = points_of(parts_->mesh, traced.outer, is_short);
-    for (const TracedRing& hole : traced.holes)
-      polygon.holes.push_back(points_of(parts_->mesh, hole, is_short));
-  }
+  for (const TracedPolygon& traced : traces(result))
+    polygons.push_back(points_of(parts_->mesh, traced, vertices == Vertices::needed));
   return polygons;
 }
 
@@ -468,12 +464,14 @@ std::vector<Ring> Overlay::changed_rings(ResultId result, Vertices vertices) con
 }
 
 bool Overlay::is_in(ResultId result, TriangleId t) const {
-  return parts_->region(parts_->known(result)).has(t);
+  return parts_->region(parts_->known(result)).at(t) != 0;
 }
 
 // Covers.
 
 CoverId Overlay::cover(TriangleId t) const { return parts_->covers.by_triangle()[t.index()]; }
+
+std::span<const CoverId> Overlay::covers() const { return parts_->covers.by_triangle(); }
 
 std::span<const LayerId> Overlay::layers(CoverId cover) const {
   return parts_->windings.layers(cover);
@@ -542,8 +540,6 @@ Cover Overlay::cover(Point p) const {
 }
 
 namespace {
-
-double distance(Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y); }
 
 double last_place(double x) {
   const double size = std::abs(x);

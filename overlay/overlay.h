@@ -143,6 +143,8 @@ class Overlay {
   /// The layers that cover a triangle. That of infinite ones is `nothing`.
   [[nodiscard]] CoverId cover(cdt::TriangleId t) const;
   static constexpr CoverId nothing{0};
+  /// The same of all triangles, by their ids.
+  [[nodiscard]] std::span<const CoverId> covers() const;
   /// Sorted.
   [[nodiscard]] std::span<const LayerId> layers(CoverId cover) const;
   /// Ids are below this; some may be nowhere now.

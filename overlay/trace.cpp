@@ -14,10 +14,10 @@ using cdt::VertexId;
 
 namespace {
 
-/// Walks along a region's border.
+/// Walks along the borders of regions.
 class Tracer {
  public:
-  explicit Tracer(const Region& region) : region_(&region), mesh_(region.mesh) {}
+  explicit Tracer(const Regions& regions) : regions_(&regions), mesh_(regions.mesh) {}
 
   /// Once around from an edge, unless that has been walked. The walk's number, or `none`.
   std::uint32_t walk(EdgeId start) {
@@ -25,10 +25,11 @@ class Tracer {
     const std::uint32_t number = walk_count_++;
     path_.clear();
     EdgeId e = start;
+    const std::uint32_t region = regions_->left_of(start);
     do {
       walk_of_.set(e.index(), number);
       step(e);
-      e = next(e);
+      e = next(e, region);
     } while (e != start);
     finish_ring();
     return number;
@@ -44,12 +45,13 @@ class Tracer {
   /// The walk that is met first from the smallest point of a walk of holes, to the left of it.
   [[nodiscard]] std::uint32_t walk_left_of(std::span<const TracedRing> holes) const {
     EdgeId e = edge_to_left(holes);
+    const std::uint32_t region = regions_->left_of(e);
     while (true) {
       // Around the vertex that e leads to, through the region, either to its border or back.
       const EdgeId back = mesh_->twin(e);
       EdgeId left = back;
       for (EdgeId at = back;;) {
-        if (!region_->has_left_of(at)) return walk_of_.find(mesh_->twin(at).index());
+        if (regions_->left_of(at) != region) return walk_of_.find(mesh_->twin(at).index());
         if (to(at) < to(left)) left = at;
         at = mesh_->rotated(at);
         if (at == back) break;
@@ -63,9 +65,9 @@ class Tracer {
 
  private:
   /// The border edge that follows, the region between them not left.
-  [[nodiscard]] EdgeId next(EdgeId e) const {
+  [[nodiscard]] EdgeId next(EdgeId e, std::uint32_t region) const {
     EdgeId result = Triangulation::next(e);
-    while (region_->has_right_of(result)) result = Triangulation::next(mesh_->twin(result));
+    while (regions_->right_of(result) == region) result = Triangulation::next(mesh_->twin(result));
     return result;
   }
 
@@ -103,7 +105,7 @@ class Tracer {
     return e;
   }
 
-  const Region* region_;
+  const Regions* regions_;
   const Triangulation* mesh_;
   std::uint32_t walk_count_ = 0;
   FlatMap walk_of_;   // by edge
@@ -115,7 +117,7 @@ class Tracer {
 /// Sorts rings into polygons.
 class Sorter {
  public:
-  explicit Sorter(const Region& region) : tracer_(region) {}
+  explicit Sorter(const Regions& regions) : regions_(&regions), tracer_(regions) {}
 
   std::vector<TracedPolygon> polygons(std::span<const BorderEdge> border) {
     for (const BorderEdge& edge : border)
@@ -151,7 +153,8 @@ class Sorter {
       return;
     }
     polygon_of_.push_back(static_cast<std::uint32_t>(polygons_.size()));
-    TracedPolygon polygon{.outer = std::move(*outer), .holes = {}};
+    TracedPolygon polygon{
+        .region = regions_->left_of(outer->front()), .outer = std::move(*outer), .holes = {}};
     rings.erase(outer);
     polygon.holes = std::move(rings);
     polygons_.push_back(std::move(polygon));
@@ -173,6 +176,7 @@ class Sorter {
     }
   }
 
+  const Regions* regions_;
   Tracer tracer_;
   std::vector<TracedPolygon> polygons_;
   std::vector<std::uint32_t> polygon_of_;  // by walk
@@ -193,14 +197,25 @@ bool runs_on(const Triangulation& mesh, EdgeId before, EdgeId after) {
 
 }  // namespace
 
-std::vector<TracedPolygon> trace(const Region& region, std::span<const BorderEdge> border) {
-  return Sorter(region).polygons(border);
+std::vector<TracedPolygon> trace(const Regions& regions, std::span<const BorderEdge> border) {
+  return Sorter(regions).polygons(border);
 }
 
-std::vector<TracedRing> trace_through(const Region& region, std::span<const BorderEdge> some) {
-  Tracer tracer(region);
+std::vector<TracedRing> trace_through(const Regions& regions, std::span<const BorderEdge> some) {
+  Tracer tracer(regions);
   for (const BorderEdge& edge : some) tracer.walk(edge.edge);
   return tracer.take_rings();
+}
+
+std::vector<BorderEdge> borders(const Regions& regions) {
+  const Triangulation& mesh = *regions.mesh;
+  std::vector<BorderEdge> result;
+  for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i) {
+    const EdgeId e(i);
+    if (!mesh.is_constrained(e) || !regions.has_border(e)) continue;
+    result.push_back({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
+  }
+  return result;
 }
 
 Ring points_of(const Triangulation& mesh, const TracedRing& ring, bool leave_out_straight) {
@@ -213,6 +228,14 @@ Ring points_of(const Triangulation& mesh, const TracedRing& ring, bool leave_out
     before = e;
   }
   return points;
+}
+
+Polygon points_of(const Triangulation& mesh, const TracedPolygon& polygon,
+                  bool leave_out_straight) {
+  Polygon result{.outer = points_of(mesh, polygon.outer, leave_out_straight), .holes = {}};
+  for (const TracedRing& hole : polygon.holes)
+    result.holes.push_back(points_of(mesh, hole, leave_out_straight));
+  return result;
 }
 
 }  // namespace loft::overlay

@@ -12,44 +12,58 @@
 
 namespace loft::overlay {
 
-/// Which triangles belong to a result: those whose covers do. A view.
-struct Region {
+/// Which region each triangle belongs to: that of its cover, or of any other mark. A view.
+struct Regions {
   const cdt::Triangulation* mesh = nullptr;
-  std::span<const CoverId> covers;      ///< by triangle
-  std::span<const std::uint8_t> is_in;  ///< by cover
+  std::span<const CoverId> covers;           ///< by triangle
+  std::span<const std::uint32_t> region_of;  ///< by cover; 0 is outside of all
 
-  [[nodiscard]] bool has(cdt::TriangleId t) const { return is_in[covers[t.index()].index()] != 0; }
-  [[nodiscard]] bool has_left_of(EdgeId e) const { return has(cdt::Triangulation::triangle(e)); }
-  [[nodiscard]] bool has_right_of(EdgeId e) const { return has_left_of(mesh->twin(e)); }
-  [[nodiscard]] bool has_border(EdgeId e) const { return has_left_of(e) && !has_right_of(e); }
+  [[nodiscard]] std::uint32_t at(cdt::TriangleId t) const {
+    return region_of[covers[t.index()].index()];
+  }
+  [[nodiscard]] std::uint32_t left_of(EdgeId e) const {
+    return at(cdt::Triangulation::triangle(e));
+  }
+  [[nodiscard]] std::uint32_t right_of(EdgeId e) const { return left_of(mesh->twin(e)); }
+  /// Whether there is a region on its left, and not on its right.
+  [[nodiscard]] bool has_border(EdgeId e) const {
+    const std::uint32_t left = left_of(e);
+    return left != 0 && right_of(e) != left;
+  }
 };
 
-/// A simple ring, edge by edge, with the region on its left. Begins at its smallest point.
+/// A simple ring, edge by edge, with its region on the left. Begins at its smallest point.
 using TracedRing = std::vector<EdgeId>;
 
 struct TracedPolygon {
+  std::uint32_t region = 0;
   TracedRing outer;
   std::vector<TracedRing> holes;
 };
 
-/// The polygons of a region, from its border edges: sorted, each with a connected inside.
+/// The polygons of regions, from their border edges: sorted, each with a connected inside.
 ///
 /// At each vertex a walk along the border keeps to the triangles on its left, so that it goes once
-/// around one part of the region that is joined by edges. Where it comes to a vertex again it is
+/// around one part of a region that is joined by edges. Where it comes to a vertex again it is
 /// cut: its loops are simple rings, of which one is counter-clockwise if it was the outer border.
 /// A walk of holes alone belongs to what is met first on a way through the region to the left.
 ///
-/// Precondition: no infinite triangle belongs to it.
-[[nodiscard]] std::vector<TracedPolygon> trace(const Region& region,
+/// Precondition: no infinite triangle belongs to a region.
+[[nodiscard]] std::vector<TracedPolygon> trace(const Regions& regions,
                                                std::span<const BorderEdge> border);
 
 /// The rings that some border edges are on. Cost: O(their length).
-[[nodiscard]] std::vector<TracedRing> trace_through(const Region& region,
+[[nodiscard]] std::vector<TracedRing> trace_through(const Regions& regions,
                                                     std::span<const BorderEdge> some);
+
+/// The border edges of all regions. Cost: O(triangles).
+[[nodiscard]] std::vector<BorderEdge> borders(const Regions& regions);
 
 /// The points of a ring. `leave_out_straight`: without those where it only runs on exactly straight
 /// along one inserted segment.
 [[nodiscard]] Ring points_of(const cdt::Triangulation& mesh, const TracedRing& ring,
                              bool leave_out_straight);
+[[nodiscard]] Polygon points_of(const cdt::Triangulation& mesh, const TracedPolygon& polygon,
+                                bool leave_out_straight);
 
 }  // namespace loft::overlay
