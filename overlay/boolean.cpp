@@ -12,7 +12,7 @@ namespace loft::overlay {
 namespace {
 
 /// An overlay for one answer: operands as layers that are named by their places, from 1.
-class Operation {
+class OneAnswer {
  public:
   LayerId add(const MultiPolygon& operand) {
     const LayerId layer = add_layer(FillRule::even_odd);
@@ -49,7 +49,7 @@ class Operation {
 
 template <class Combine>
 MultiPolygon combined(const MultiPolygon& a, const MultiPolygon& b, Combine combine) {
-  Operation operation;
+  OneAnswer operation;
   const Expression first = operation.add(a);
   const Expression second = operation.add(b);
   return operation.answer(combine(first, second));
@@ -74,7 +74,7 @@ MultiPolygon exclude(const MultiPolygon& a, const MultiPolygon& b) {
 }
 
 MultiPolygon dissolve(std::span<const MultiPolygon> many) {
-  Operation operation;
+  OneAnswer operation;
   std::vector<LayerId> layers;
   layers.reserve(many.size());
   for (const MultiPolygon& one : many) layers.push_back(operation.add(one));
@@ -82,7 +82,7 @@ MultiPolygon dissolve(std::span<const MultiPolygon> many) {
 }
 
 MultiPolygon fill(std::span<const Ring> rings, FillRule rule) {
-  Operation operation;
+  OneAnswer operation;
   const Expression inside = operation.add(rings, rule);
   return operation.answer(inside);
 }
