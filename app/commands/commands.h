@@ -60,6 +60,18 @@ struct OverlayCommand {
   bool quiet = false;
 };
 
+/// `loft query MAP --points|--lines FILE ...`
+struct QueryCommand {
+  std::filesystem::path map;
+  std::optional<std::filesystem::path> points;  ///< one of these two
+  std::optional<std::filesystem::path> lines;
+  std::vector<std::filesystem::path> outputs;  ///< none: standard output
+  std::optional<std::string> layer_by;         ///< a property; not given: the name, or the number
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
 /// `loft check MESH... [--stack STACK]`
 struct CheckCommand {
   std::vector<std::filesystem::path> meshes;
@@ -149,6 +161,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const ReconstructCommand& command);
 [[nodiscard]] ExitCode run(const TriangulateCommand& command);
 [[nodiscard]] ExitCode run(const OverlayCommand& command);
+[[nodiscard]] ExitCode run(const QueryCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);
 [[nodiscard]] ExitCode run(const InfoCommand& command);
 [[nodiscard]] ExitCode run(const StreamCommand& command);

@@ -6,6 +6,7 @@
 
 #include "app/exit_code.h"
 #include "app/report.h"
+#include "io/bytes/json_reader.h"
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/utf8.h"
@@ -140,6 +141,25 @@ std::string common_crs(std::span<const io::Map> maps, std::span<const path> inpu
                        shown_name(inputs[*first]) + "; bring them to one, for example by ogr2ogr");
   }
   return first ? maps[*first].crs : std::string();
+}
+
+std::string json_list(const overlay::Overlay& overlay, std::span<const overlay::LayerId> layers) {
+  std::string text = "[";
+  for (const overlay::LayerId layer : layers) {
+    if (text.size() > 1) text += ',';
+    io::append_json_string(text, overlay.name(layer));
+  }
+  return text + ']';
+}
+
+std::string joined_names(const overlay::Overlay& overlay,
+                         std::span<const overlay::LayerId> layers) {
+  std::string text;
+  for (const overlay::LayerId layer : layers) {
+    if (!text.empty()) text += ';';
+    text += overlay.name(layer);
+  }
+  return text;
 }
 
 std::optional<std::string> note_on_lines(std::span<const io::Map> maps) {

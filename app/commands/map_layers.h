@@ -43,6 +43,12 @@ using LayerNames = std::vector<std::vector<std::string>>;
 [[nodiscard]] std::string common_crs(std::span<const io::Map> maps,
                                      std::span<const std::filesystem::path> inputs);
 
+/// The names of layers as a JSON list; the same with semicolons between them, as CSV has them.
+[[nodiscard]] std::string json_list(const overlay::Overlay& overlay,
+                                    std::span<const overlay::LayerId> layers);
+[[nodiscard]] std::string joined_names(const overlay::Overlay& overlay,
+                                       std::span<const overlay::LayerId> layers);
+
 /// What is said of maps whose lines or points are not used; nothing where there are none.
 [[nodiscard]] std::optional<std::string> note_on_lines(std::span<const io::Map> maps);
 /// What is said of rings that enclose nothing, and of places where rounding decides.

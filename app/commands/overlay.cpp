@@ -145,15 +145,6 @@ std::vector<ExactArea> areas_of_layers(const Overlay& overlay, const Pieces& pie
   return areas;
 }
 
-std::string text_of_owners(const Overlay& overlay, const Owners& owners) {
-  std::string text = "[";
-  for (const LayerId owner : owners) {
-    if (text.size() > 1) text += ',';
-    io::append_json_string(text, overlay.name(owner));
-  }
-  return text + ']';
-}
-
 /// A feature with a property, as JSON text, and the area.
 io::Feature feature_of(MultiPolygon polygons, const std::string& key, const std::string& value) {
   const double size = area(polygons).to_double();
@@ -168,8 +159,7 @@ std::vector<io::Feature> features_of(const Overlay& overlay, const std::optional
   std::vector<io::Feature> features;
   for (auto& [owners, polygons] : pieces)
     if (!kept || wanted.contains(owners))
-      features.push_back(
-          feature_of(std::move(polygons), "layers", text_of_owners(overlay, owners)));
+      features.push_back(feature_of(std::move(polygons), "layers", json_list(overlay, owners)));
   return features;
 }
 

@@ -32,6 +32,7 @@ class CommandLine {
   SessionCommand session_;
   TriangulateCommand triangulate_;
   OverlayCommand overlay_;
+  QueryCommand query_;
   CheckCommand check_;
   InfoCommand info_;
   ConvertCommand convert_;

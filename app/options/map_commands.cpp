@@ -7,6 +7,7 @@
 
 #include "app/options/shared_options.h"
 #include "io/maps.h"
+#include "io/points.h"
 
 namespace loft::app {
 
@@ -84,6 +85,42 @@ CLI::App* add_overlay(CLI::App& app, OverlayCommand& command) {
       "  loft overlay parks.geojson lakes.geojson --keep 'parks - lakes' -o land.geojson\n"
       "  loft overlay world.geojson --layer-by name --all-pieces -o pieces.geojson -o pieces.svg\n"
       "  loft overlay plan-a.geojson plan-b.geojson --keep '\"plan-a\" & \"plan-b\"' --areas");
+  return sub;
+}
+
+CLI::App* add_query(CLI::App& app, QueryCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "query", "Tell which areas of a map points are in, and how far lines run through each");
+  sub->add_option("MAP", command.map,
+                  "Map file, " + io::map_extensions() + ", or - for standard input")
+      ->required();
+  CLI::Option* const points =
+      sub->add_option("--points", command.points,
+                      "Table of points, " + io::points_extensions() +
+                          ": columns x and y, or lon and lat, or the first two")
+          ->type_name("FILE");
+  sub->add_option("--lines", command.lines, "Lines, " + io::map_extensions())
+      ->type_name("FILE")
+      ->excludes(points);
+  add_layer_option(*sub, command.layer_by,
+                   "Areas are called by that property, and one if it is the same (default: name, "
+                   "or the feature's number)");
+  begin_group(*sub, map_results);
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, .csv; of lines " + io::map_output_extensions() +
+                      ", too; may be repeated; standard output without it")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->footer(
+      "Of points: x, y, the areas that they are inside of, those on whose border they are.\n"
+      "Of lines: a row for each of those with the length there; .geojson has the pieces.\n"
+      "Several names are parted by semicolons.\n\n"
+      "Examples:\n"
+      "  loft query world.geojson --points towns.csv -o countries.csv\n"
+      "  loft query world.geojson --lines rivers.geojson -o lengths.csv -o pieces.geojson");
   return sub;
 }
 
