@@ -10,6 +10,7 @@
 #include "app/exit_code.h"
 #include "io/planar/svg.h"
 #include "io/stack.h"
+#include "overlay/coverage.h"
 #include "overlay/layer.h"
 #include "reconstruct/options.h"
 
@@ -67,6 +68,19 @@ struct QueryCommand {
   std::optional<std::filesystem::path> lines;
   std::vector<std::filesystem::path> outputs;  ///< none: standard output
   std::optional<std::string> layer_by;         ///< a property; not given: the name, or the number
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `loft coverage MAP [--check] [--clean HEIR] [-o OUT] ...`
+struct CoverageCommand {
+  std::filesystem::path map;
+  std::vector<std::filesystem::path> outputs;
+  bool check = false;                   ///< faults are a failure
+  std::optional<overlay::Heir> clean;   ///< who gets what several claim, or none
+  std::optional<double> gap_width;      ///< wider gaps are no faults
+  std::optional<std::string> layer_by;  ///< a property; not given: a layer a feature
   io::SvgOptions drawing;
   bool json = false;
   bool quiet = false;
@@ -162,6 +176,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const TriangulateCommand& command);
 [[nodiscard]] ExitCode run(const OverlayCommand& command);
 [[nodiscard]] ExitCode run(const QueryCommand& command);
+[[nodiscard]] ExitCode run(const CoverageCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);
 [[nodiscard]] ExitCode run(const InfoCommand& command);
 [[nodiscard]] ExitCode run(const StreamCommand& command);

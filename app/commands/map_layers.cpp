@@ -48,14 +48,13 @@ class NameClashes {
   std::map<std::string, std::size_t> inputs_of_;  // the last one
 };
 
-/// The rings of features as shapes of their layers.
-std::vector<overlay::Shape> rings_of(const io::Feature& feature, overlay::LayerId layer) {
-  std::vector<overlay::Shape> rings;
+/// Adds the rings of a feature as shapes of its layer.
+void add_rings(std::vector<overlay::Shape>& shapes, const io::Feature& feature,
+               overlay::LayerId layer) {
   for (const overlay::Polygon& polygon : feature.polygons) {
-    rings.push_back({layer, polygon.outer});
-    for (const overlay::Ring& hole : polygon.holes) rings.push_back({layer, hole});
+    shapes.push_back({layer, polygon.outer});
+    for (const overlay::Ring& hole : polygon.holes) shapes.push_back({layer, hole});
   }
-  return rings;
 }
 
 }  // namespace
@@ -123,10 +122,18 @@ overlay::Overlay overlay_of(std::span<const io::Map> maps, const LayerNames& nam
     for (std::size_t feature = 0; feature < names[i].size(); ++feature) {
       const auto [known, is_new] = layers.try_emplace(names[i][feature]);
       if (is_new) known->second = overlay.add_layer(names[i][feature], rule);
-      std::ranges::move(rings_of(maps[i].features[feature], known->second),
-                        std::back_inserter(shapes));
+      add_rings(shapes, maps[i].features[feature], known->second);
     }
   }
+  overlay.insert(shapes);
+  return overlay;
+}
+
+overlay::Overlay overlay_of_features(const io::Map& map, std::span<const std::string> names) {
+  overlay::Overlay overlay;
+  std::vector<overlay::Shape> shapes;
+  for (std::size_t i = 0; i < map.features.size(); ++i)
+    add_rings(shapes, map.features[i], overlay.add_layer(names[i]));
   overlay.insert(shapes);
   return overlay;
 }

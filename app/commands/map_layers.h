@@ -38,6 +38,10 @@ using LayerNames = std::vector<std::vector<std::string>>;
 [[nodiscard]] overlay::Overlay overlay_of(std::span<const io::Map> maps, const LayerNames& names,
                                           overlay::FillRule rule = overlay::FillRule::even_odd);
 
+/// Each feature of a map in a layer of its own, of the same number, whatever they are called.
+[[nodiscard]] overlay::Overlay overlay_of_features(const io::Map& map,
+                                                   std::span<const std::string> names);
+
 /// The coordinate system that the maps have, as they say it. Throws InputError if they say
 /// different things.
 [[nodiscard]] std::string common_crs(std::span<const io::Map> maps,

@@ -11,12 +11,12 @@
 
 #include "app/commands/commands.h"
 #include "app/commands/map_layers.h"
+#include "app/commands/map_outputs.h"
 #include "app/json.h"
 #include "app/overwriting.h"
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
-#include "io/bytes/atomic_file.h"
 #include "io/bytes/csv_field.h"
 #include "io/bytes/file.h"
 #include "io/bytes/json_reader.h"
@@ -34,8 +34,6 @@ using std::filesystem::path;
 
 namespace {
 
-bool is_table(const path& output) { return io::extension(output) == ".csv"; }
-
 /// What the points or lines are in.
 const path& asked_file(const QueryCommand& command) {
   return command.points ? *command.points : *command.lines;
@@ -48,14 +46,8 @@ void check_query(const QueryCommand& command) {
     throw UsageError("loft query can read one file from standard input, not two");
   forbid_overwriting(inputs, command.outputs);
   for (const path& output : command.outputs) {
-    if (is_table(output))
-      const io::AtomicFile tried(output);
-    else if (command.points)
-      throw io::UnknownFormat(output, ".csv");
-    else if (io::map_output_extensions().find(io::extension(output)) == std::string::npos)
-      throw io::UnknownFormat(output, ".csv " + io::map_output_extensions());
-    else
-      io::check_writable_map(output);
+    if (command.points && !is_table(output)) throw io::UnknownFormat(output, ".csv");
+    check_table_or_map(output);
   }
 }
 
@@ -152,7 +144,9 @@ Json length_report(const Overlay& overlay, std::span<const LinePiece> pieces) {
 MapAnswer ask_lines(const Overlay& overlay, std::span<const AskedLine> lines) {
   MapAnswer answer{.table = "line,inside,on_border,length\r\n"};
   std::vector<LinePiece> all;
+  std::size_t count = 0;
   for (const AskedLine& line : lines) {
+    count += line.ids.size();
     const std::size_t before = all.size();
     for (const overlay::RingId id : line.ids)
       std::ranges::move(pieces(overlay, id), std::back_inserter(all));
@@ -161,21 +155,18 @@ MapAnswer ask_lines(const Overlay& overlay, std::span<const AskedLine> lines) {
     for (const LinePiece& piece : own)
       answer.pieces.features.push_back(feature_of(overlay, line.name, piece));
   }
-  answer.words = counted(lines.size(), "line") + " in " + counted(all.size(), "piece");
+  answer.words = counted(count, "line") + " in " + counted(all.size(), "piece");
   answer.report = {
-      {"lines", lines.size()}, {"pieces", all.size()}, {"lengths", length_report(overlay, all)}};
+      {"lines", count}, {"pieces", all.size()}, {"lengths", length_report(overlay, all)}};
   return answer;
 }
 
 void write_answer(const QueryCommand& command, const MapAnswer& answer) {
   for (const path& output : command.outputs) {
-    if (!is_table(output)) {
+    if (is_table(output))
+      write_table(output, answer.table);
+    else
       io::write(output, answer.pieces, command.drawing);
-      continue;
-    }
-    io::AtomicFile file(output);
-    file.stream() << answer.table;
-    file.commit();
   }
   if (command.outputs.empty() && !command.json) std::cout << answer.table;
 }

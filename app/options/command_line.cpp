@@ -474,6 +474,7 @@ CommandLine::CommandLine()
   when(add_session(app_, session_), [this] { return run_at_once(session_); });
   when(add_triangulate(app_, triangulate_), [this] { return app::run(triangulate_); });
   when(add_overlay(app_, overlay_), [this] { return run_at_once(overlay_); });
+  when(add_coverage(app_, coverage_), [this] { return run_at_once(coverage_); });
   when(add_query(app_, query_), [this] { return run_at_once(query_); });
   when(add_check(app_, check_), [this] { return run_at_once(check_); });
   when(add_convert(app_, convert_), [this] { return run_at_once(convert_); });

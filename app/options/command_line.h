@@ -32,6 +32,7 @@ class CommandLine {
   SessionCommand session_;
   TriangulateCommand triangulate_;
   OverlayCommand overlay_;
+  CoverageCommand coverage_;
   QueryCommand query_;
   CheckCommand check_;
   InfoCommand info_;

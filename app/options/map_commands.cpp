@@ -5,6 +5,7 @@
 #include <map>
 #include <string>
 
+#include "app/options/complaints.h"
 #include "app/options/shared_options.h"
 #include "io/maps.h"
 #include "io/points.h"
@@ -85,6 +86,48 @@ CLI::App* add_overlay(CLI::App& app, OverlayCommand& command) {
       "  loft overlay parks.geojson lakes.geojson --keep 'parks - lakes' -o land.geojson\n"
       "  loft overlay world.geojson --layer-by name --all-pieces -o pieces.geojson -o pieces.svg\n"
       "  loft overlay plan-a.geojson plan-b.geojson --keep '\"plan-a\" & \"plan-b\"' --areas");
+  return sub;
+}
+
+CLI::App* add_coverage(CLI::App& app, CoverageCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "coverage", "Find and mend overlaps and gaps of a map whose areas should belong to one each");
+  sub->add_option("MAP", command.map,
+                  "Map file, " + io::map_extensions() + ", or - for standard input")
+      ->required();
+  begin_group(*sub, "Faults");
+  sub->add_flag("--check", command.check, "Exit with 1 if there is an overlap or a gap");
+  sub->add_option_function<std::string>(
+         "--clean",
+         [&command](const std::string& heir) {
+           command.clean = heir == "first" ? overlay::Heir::first : overlay::Heir::longest_border;
+         },
+         "Mend the map: an overlap goes to that one of its areas, a narrow gap to that one around "
+         "it, with the longest border to it, or to the first in the map")
+      ->type_name("HEIR")
+      ->check(CLI::IsMember({"longest-border", "first"}));
+  sub->add_option("--gap-width", command.gap_width,
+                  "Gaps in which a disc of that diameter has room are seas, no faults; without it "
+                  "all gaps are listed, and none is mended")
+      ->type_name("LENGTH")
+      ->check(CLI::Validator(complain_of_length, ""));
+  add_layer_option(*sub, command.layer_by,
+                   "Features with the same value of that property are one area (default: each is "
+                   "one, called by its name, or number)");
+  begin_group(*sub, map_results);
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file: .csv, the table of faults; " + io::map_output_extensions() +
+                      ", the mended map, without --clean the faults; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object instead of the table");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->footer(
+      "What one area alone claims stays its own, with its properties.\n\n"
+      "Examples:\n"
+      "  loft coverage parcels.geojson --check --gap-width 0.5\n"
+      "  loft coverage world.geojson --clean longest-border --gap-width 0.01 -o clean.geojson");
   return sub;
 }
 
