@@ -49,6 +49,7 @@ struct Result {
 
 /// Takes out what is at the same places in both: there was no change.
 void leave_out_common(std::vector<BorderEdge>& gone, std::vector<BorderEdge>& come) {
+  if (gone.empty() || come.empty()) return;
   const auto is_before = [](const BorderEdge& a, const BorderEdge& b) { return a.is_before(b); };
   std::ranges::sort(gone, is_before);
   std::ranges::sort(come, is_before);
@@ -236,9 +237,11 @@ void Overlay::Parts::check_border(Result& result, EdgeId e) {
   result.change.come.push_back(edge);
 }
 
+/// Covers differ across constrained edges alone.
 void Overlay::Parts::check_borders(Result& result, TriangleId t) {
   for (unsigned corner = 0; corner < 3; ++corner) {
     const EdgeId e = Triangulation::edge(t, corner);
+    if (!mesh.is_constrained(e)) continue;
     check_border(result, e);
     check_border(result, mesh.twin(e));
   }

@@ -25,7 +25,7 @@ struct Shape {
 };
 
 /// What the last edit did to a result. Pieces that are as before are in neither list, whatever
-/// happened to the triangles beside them.
+/// happened to the triangles beside them. In no order.
 struct ResultChange {
   std::vector<BorderEdge> gone;  ///< their ids name nothing any more
   std::vector<BorderEdge> come;
