@@ -41,9 +41,9 @@ meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes
 session       io/session/*                   stacks
-io            io/{meshes,polylines,stack,stack_file,stack_writer,surfaces,triangulations}     gltf planar session
+io            io/{maps,meshes,points,polylines,stack,stack_file,stack_writer,surfaces,triangulations}     gltf planar session
 
-words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,terminal}  io
+words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words
 server        app/server/*                   capture
 commands      app/commands/*                 server

@@ -10,6 +10,8 @@
 #include "app/exit_code.h"
 #include "io/planar/svg.h"
 #include "io/stack.h"
+#include "overlay/coverage.h"
+#include "overlay/layer.h"
 #include "reconstruct/options.h"
 
 namespace loft::app {
@@ -41,6 +43,45 @@ struct TriangulateCommand {
   std::vector<std::filesystem::path> outputs;
   io::SvgOptions drawing;
   double epsilon = 0;  ///< in the unit of the input
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `loft overlay IN... [--keep EXPRESSION] [-o OUT] ...`
+struct OverlayCommand {
+  std::vector<std::filesystem::path> inputs;
+  std::vector<std::filesystem::path> outputs;
+  std::optional<std::string> keep;  ///< an expression over layers
+  bool all_pieces = false;
+  bool areas = false;
+  std::optional<std::string> layer_by;  ///< a property; not given: a layer a file
+  overlay::FillRule fill = overlay::FillRule::even_odd;
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `loft query MAP --points|--lines FILE ...`
+struct QueryCommand {
+  std::filesystem::path map;
+  std::optional<std::filesystem::path> points;  ///< one of these two
+  std::optional<std::filesystem::path> lines;
+  std::vector<std::filesystem::path> outputs;  ///< none: standard output
+  std::optional<std::string> layer_by;         ///< a property; not given: the name, or the number
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `loft coverage MAP [--check] [--clean HEIR] [-o OUT] ...`
+struct CoverageCommand {
+  std::filesystem::path map;
+  std::vector<std::filesystem::path> outputs;
+  bool check = false;                   ///< faults are a failure
+  std::optional<overlay::Heir> clean;   ///< who gets what several claim, or none
+  std::optional<double> gap_width;      ///< wider gaps are no faults
+  std::optional<std::string> layer_by;  ///< a property; not given: a layer a feature
+  io::SvgOptions drawing;
   bool json = false;
   bool quiet = false;
 };
@@ -133,6 +174,9 @@ struct SessionCommand {
 /// loft::Error; outputs are complete or not there.
 [[nodiscard]] ExitCode run(const ReconstructCommand& command);
 [[nodiscard]] ExitCode run(const TriangulateCommand& command);
+[[nodiscard]] ExitCode run(const OverlayCommand& command);
+[[nodiscard]] ExitCode run(const QueryCommand& command);
+[[nodiscard]] ExitCode run(const CoverageCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);
 [[nodiscard]] ExitCode run(const InfoCommand& command);
 [[nodiscard]] ExitCode run(const StreamCommand& command);

@@ -14,8 +14,10 @@
 #include "app/options/completion.h"
 #include "app/options/help.h"
 #include "app/options/manual.h"
+#include "app/options/map_commands.h"
 #include "app/options/shared_options.h"
 #include "app/options/tree.h"
+#include "io/maps.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
 #include "io/stack.h"
@@ -42,6 +44,7 @@ std::string footer() {
          "  loft check skull.ply --stack skull.ndjson\n"
          "  loft stream capture.ndjson --follow --session capture.session --view\n"
          "  loft triangulate world.geojson -o world.svg\n"
+         "  loft overlay parks.geojson lakes.geojson --keep 'parks - lakes' -o land.geojson\n"
          "\n"
          "Stacks: NDJSON, a slice a line, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}; a "
          "contour\n"
@@ -55,6 +58,10 @@ std::string footer() {
          "  polylines " +
          loft::io::polyline_extensions() + "; triangulations out " +
          loft::io::triangulation_extensions() +
+         "\n"
+         "Maps: GeoJSON polygons with their holes and properties.\n"
+         "  maps " +
+         loft::io::map_extensions() + "; maps out " + loft::io::map_output_extensions() +
          "\n"
          "\n"
          "Exit codes: 0 ok, 1 check failed, 2 usage, 3 bad input, 4 cannot write, 130 "
@@ -466,6 +473,9 @@ CommandLine::CommandLine()
   when(add_view(app_, view_), [this] { return app::run(view_); });
   when(add_session(app_, session_), [this] { return run_at_once(session_); });
   when(add_triangulate(app_, triangulate_), [this] { return app::run(triangulate_); });
+  when(add_overlay(app_, overlay_), [this] { return run_at_once(overlay_); });
+  when(add_coverage(app_, coverage_), [this] { return run_at_once(coverage_); });
+  when(add_query(app_, query_), [this] { return run_at_once(query_); });
   when(add_check(app_, check_), [this] { return run_at_once(check_); });
   when(add_convert(app_, convert_), [this] { return run_at_once(convert_); });
   when(add_slice(app_, slice_), [this] {

@@ -31,6 +31,9 @@ class CommandLine {
   ViewCommand view_;
   SessionCommand session_;
   TriangulateCommand triangulate_;
+  OverlayCommand overlay_;
+  CoverageCommand coverage_;
+  QueryCommand query_;
   CheckCommand check_;
   InfoCommand info_;
   ConvertCommand convert_;

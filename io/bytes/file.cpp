@@ -7,6 +7,8 @@
 
 #include <cerrno>
 #include <fstream>
+#include <iostream>
+#include <iterator>
 #include <sstream>
 #include <system_error>
 #include <utility>
@@ -45,6 +47,12 @@ std::string read_file(const std::filesystem::path& path) {
   content << file.rdbuf();
   if (file.bad()) throw FileError(Access::read, path, last_cause());
   return std::move(content).str();
+}
+
+std::string read_standard_input() {
+  std::string content{std::istreambuf_iterator<char>(std::cin), {}};
+  if (std::cin.bad()) throw FileError(Access::read, standard_input, last_cause());
+  return content;
 }
 
 namespace {

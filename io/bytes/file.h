@@ -53,6 +53,11 @@ class FileBytes {
 /// The whole content of a file. Throws FileError.
 [[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
+/// What messages call standard input.
+inline constexpr std::string_view standard_input = "standard input";
+/// All that comes from it. Throws FileError.
+[[nodiscard]] std::string read_standard_input();
+
 /// What the system said about the last call that failed (`errno`).
 [[nodiscard]] std::string last_cause();
 

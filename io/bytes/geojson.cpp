@@ -29,6 +29,7 @@ struct Members {
   std::optional<JsonReader> geometry;
   std::optional<JsonReader> geometries;
   std::optional<JsonReader> coordinates;
+  std::optional<JsonReader> id;
   std::optional<JsonReader> properties;
   std::optional<JsonReader> crs;
 };
@@ -96,6 +97,8 @@ Members read_members(JsonReader& json) {
       members.geometries = bookmark(json);
     } else if (*key == "coordinates") {
       members.coordinates = bookmark(json);
+    } else if (*key == "id") {
+      members.id = bookmark(json);
     } else if (*key == "properties") {
       members.properties = bookmark(json);
     } else if (*key == "crs") {
@@ -148,7 +151,7 @@ class GeoJsonReader {
     if (json.peek() != JsonKind::object) return complain("", reject(json, wanted));
     const Members root = read_members(json);
     json.end();
-    if (root.crs) result_.crs = read_crs(*root.crs);
+    result_.crs = root.crs;
     if (root.type == "FeatureCollection") {
       read_features(root);
     } else if (root.type == "Feature") {
@@ -181,9 +184,9 @@ class GeoJsonReader {
   }
 
   void read_feature(const Members& feature, const std::string& place) {
+    result_.features.push_back({place, feature.id, feature.properties});
     if (!feature.geometry) return;  // null: it has no place
     feature_ = place;
-    result_.features.push_back({place, feature.properties});
     if (const auto name = result_.features.back().text("name"))
       feature_ += '(' + in_quotes(*name) + ") ";
     JsonReader json = *feature.geometry;
@@ -230,8 +233,10 @@ class GeoJsonReader {
   }
 
   void read_rings(JsonReader& json, const std::string& place) {
+    const std::size_t before = result_.shapes.size();
     read_list(json, place, "a list of rings", [&](std::size_t i) {
-      read_points(json, place + "ring " + std::to_string(i) + ' ', GeoKind::ring, i);
+      const bool is_hole = result_.shapes.size() > before;
+      read_points(json, place + "ring " + std::to_string(i) + ' ', GeoKind::ring, is_hole);
     });
   }
 
@@ -245,9 +250,9 @@ class GeoJsonReader {
     read_points(json, place, GeoKind::line);
   }
 
-  void read_points(JsonReader& json, const std::string& place, GeoKind kind, std::size_t ring = 0) {
+  void read_points(JsonReader& json, const std::string& place, GeoKind kind, bool is_hole = false) {
     GeoShape shape = begin_shape(kind);
-    shape.is_hole = ring > 0;
+    shape.is_hole = is_hole;
     read_list(json, place, "a list of points", [&](std::size_t i) {
       read_position(json, shape, [&] { return point_place(place, i); });
     });
@@ -269,7 +274,7 @@ class GeoJsonReader {
   }
 
   [[nodiscard]] GeoShape begin_shape(GeoKind kind) const {
-    return {kind, {}, {}, result_.features.size() - 1, false};
+    return {kind, {}, {}, result_.features.size() - 1};
   }
   void end_shape(GeoShape&& shape) {
     if (shape.heights.size() != shape.points.size()) shape.heights.clear();
@@ -382,6 +387,8 @@ std::vector<std::string> GeoFeature::names() const {
   }
   return result;
 }
+
+std::string GeoJson::crs_name() const { return crs ? read_crs(*crs) : std::string(); }
 
 GeoJson read_geojson(std::string_view text, std::string_view name) {
   return GeoJsonReader(text, name).read();

@@ -234,6 +234,13 @@ void JsonReader::skip() {
   } while (!open.empty());
 }
 
+std::string_view JsonReader::text() {
+  skip_blanks();
+  const std::size_t begin = place_;
+  skip();
+  return text_.substr(begin, place_ - begin);
+}
+
 void JsonReader::end(const char* hint) {
   skip_blanks();
   if (place_ < text_.size()) fail(std::string("something behind the closing bracket") + hint);
@@ -268,6 +275,38 @@ std::string reject(JsonReader& json, const std::string& wanted) {
   json.skip();
   if (kind != JsonKind::not_finite) return "expected " + wanted + ", found " + name(kind);
   return std::string(json.last_word()) + " is not a number; write " + wanted;
+}
+
+namespace {
+
+/// How much of a text that begins with a quote is a string.
+std::size_t string_size(std::string_view text) {
+  std::size_t size = 1;
+  while (text[size] != '"') size += text[size] == '\\' ? 2 : 1;
+  return size + 1;
+}
+
+/// Where what is no string, bracket, comma or colon ends.
+std::size_t word_size(std::string_view text) {
+  return std::min(text.find_first_of("\"[]{},: \t\r\n"), text.size());
+}
+
+}  // namespace
+
+std::string compact_json(std::string_view value) {
+  std::string result;
+  while (!value.empty()) {
+    std::size_t size = value.front() == '"' ? string_size(value) : word_size(value);
+    const bool is_blank = std::string_view(" \t\r\n").find(value.front()) != std::string_view::npos;
+    const std::string_view word = value.substr(0, size);
+    if (size == 0 && !is_blank) {
+      result += value.front();
+    } else if (!is_blank) {
+      result += is_not_finite(word) ? "null" : word;
+    }
+    value.remove_prefix(std::max<std::size_t>(size, 1));
+  }
+  return result;
 }
 
 void append_json_string(std::string& json, std::string_view text) {

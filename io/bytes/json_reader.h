@@ -51,6 +51,8 @@ class JsonReader {
 
   /// Leaves out the value that comes next, whatever it is.
   void skip();
+  /// Leaves it out, too: as it is written.
+  [[nodiscard]] std::string_view text();
 
   /// The key of an object's next member, whose value comes next; none at the object's end.
   [[nodiscard]] std::optional<std::string> next_key();
@@ -89,6 +91,10 @@ class JsonReader {
 /// Leaves out the value that comes next and says what should have been there:
 /// `expected a list, found null`, `NaN is not a number; write a list`.
 [[nodiscard]] std::string reject(JsonReader& json, const std::string& wanted);
+
+/// A value without the blanks around its parts; null instead of what is beyond JSON (NaN ...).
+/// Precondition: a JsonReader has read it.
+[[nodiscard]] std::string compact_json(std::string_view value);
 
 /// Appends text as a JSON string, quotes and escapes included. Precondition: UTF-8.
 void append_json_string(std::string& json, std::string_view text);

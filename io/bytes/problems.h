@@ -36,4 +36,19 @@ class Problems {
   std::size_t count_ = 0;
 };
 
+/// Calls read(item) for each of several inputs; throws InputError with the problems of all.
+template <class Items, class Read>
+void gather_problems(const Items& items, Read read) {
+  std::string problems;
+  for (const auto& item : items) {
+    try {
+      read(item);
+    } catch (const InputError& error) {
+      if (!problems.empty()) problems += '\n';
+      problems += error.what();
+    }
+  }
+  if (!problems.empty()) throw InputError(problems);
+}
+
 }  // namespace loft::io

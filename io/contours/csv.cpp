@@ -5,11 +5,11 @@
 #include <tuple>
 #include <utility>
 
+#include "io/bytes/csv_columns.h"
 #include "io/bytes/problems.h"
 #include "io/bytes/text.h"
 #include "io/bytes/utf8.h"
 #include "io/bytes/words.h"
-#include "io/contours/csv_columns.h"
 #include "io/contours/heights.h"
 #include "io/contours/stack_builder.h"
 #include "mesh/admitted.h"

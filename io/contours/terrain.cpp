@@ -192,8 +192,9 @@ class TerrainReader {
         widen(1, point.y);
       }
     }
+    const std::string crs = json_.crs_name();
     const bool says_so =
-        json_.crs.find("CRS84") != std::string::npos || json_.crs.find("4326") != std::string::npos;
+        crs.find("CRS84") != std::string::npos || crs.find("4326") != std::string::npos;
     constexpr double steepest = 20;  // no hill is that high against its map
     const double extent = std::max(most[0] - least[0], most[1] - least[1]);
     const bool is_steep = !raised_.empty() && most[2] - least[2] > steepest * extent;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/contours/csv_columns.h"
+#include "io/bytes/csv_columns.h"
 
 #include <algorithm>
 #include <cctype>
@@ -12,31 +12,31 @@ namespace loft::io {
 
 namespace {
 
-constexpr std::string_view blanks = " \t\r\v\f";
+constexpr std::string_view csv_blanks = " \t\r\v\f";
 
-struct Name {
+struct ColumnName {
   std::string_view name;
   CsvColumn column;
 };
-constexpr std::array names{
-    Name{"x", CsvColumn::x},
-    Name{"y", CsvColumn::y},
-    Name{"z", CsvColumn::z},
-    Name{"height", CsvColumn::z},
-    Name{"elevation", CsvColumn::z},
-    Name{"contour", CsvColumn::contour},
-    Name{"contour_id", CsvColumn::contour},
-    Name{"contourid", CsvColumn::contour},
-    Name{"loop", CsvColumn::contour},
-    Name{"ring", CsvColumn::contour},
-    Name{"polygon", CsvColumn::contour},
-    Name{"curve", CsvColumn::contour},
-    Name{"label", CsvColumn::label},
-    Name{"name", CsvColumn::label},
-    Name{"structure", CsvColumn::label},
-    Name{"roi", CsvColumn::label},
-    Name{"organ", CsvColumn::label},
-    Name{"object", CsvColumn::label},
+constexpr std::array column_names{
+    ColumnName{"x", CsvColumn::x},
+    ColumnName{"y", CsvColumn::y},
+    ColumnName{"z", CsvColumn::z},
+    ColumnName{"height", CsvColumn::z},
+    ColumnName{"elevation", CsvColumn::z},
+    ColumnName{"contour", CsvColumn::contour},
+    ColumnName{"contour_id", CsvColumn::contour},
+    ColumnName{"contourid", CsvColumn::contour},
+    ColumnName{"loop", CsvColumn::contour},
+    ColumnName{"ring", CsvColumn::contour},
+    ColumnName{"polygon", CsvColumn::contour},
+    ColumnName{"curve", CsvColumn::contour},
+    ColumnName{"label", CsvColumn::label},
+    ColumnName{"name", CsvColumn::label},
+    ColumnName{"structure", CsvColumn::label},
+    ColumnName{"roi", CsvColumn::label},
+    ColumnName{"organ", CsvColumn::label},
+    ColumnName{"object", CsvColumn::label},
 };
 
 std::string_view content_of(std::string_view text) {
@@ -48,13 +48,13 @@ std::string_view content_of(std::string_view text) {
 
 /// Where the cell that begins at `begin` ends.
 std::size_t end_of_cell(std::string_view line, std::size_t begin, char separator) {
-  const std::size_t first = line.find_first_not_of(blanks, begin);
+  const std::size_t first = line.find_first_not_of(csv_blanks, begin);
   if (first != std::string_view::npos && line[first] == '"') {
     const std::size_t quote = line.find('"', first + 1);
     if (quote != std::string_view::npos) begin = quote + 1;
   }
   const std::size_t end =
-      separator == ' ' ? line.find_first_of(blanks, begin) : line.find(separator, begin);
+      separator == ' ' ? line.find_first_of(csv_blanks, begin) : line.find(separator, begin);
   return std::min(end, line.size());
 }
 
@@ -84,13 +84,14 @@ CsvStyle find_csv_style(std::string_view header, std::string_view line) {
 std::vector<std::string_view> csv_cells(std::string_view line, const CsvStyle& style) {
   std::vector<std::string_view> cells;
   if (style.separator == ' ')
-    line = line.substr(std::min(line.find_first_not_of(blanks), line.size()));
+    line = line.substr(std::min(line.find_first_not_of(csv_blanks), line.size()));
   std::size_t begin = 0;
   while (begin < line.size()) {
     const std::size_t end = end_of_cell(line, begin, style.separator);
     cells.push_back(content_of(line.substr(begin, end - begin)));
     begin = end + 1;
-    if (style.separator == ' ') begin = std::min(line.find_first_not_of(blanks, end), line.size());
+    if (style.separator == ' ')
+      begin = std::min(line.find_first_not_of(csv_blanks, end), line.size());
   }
   return cells;
 }
@@ -116,8 +117,8 @@ CsvHeader read_csv_header(const std::vector<std::string_view>& cells) {
     std::string name(content_of(cells[i].substr(0, bracket)));
     std::ranges::transform(name, name.begin(),
                            [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    const auto found = std::ranges::find(names, name, &Name::name);
-    if (found == names.end()) {
+    const auto found = std::ranges::find(column_names, name, &ColumnName::name);
+    if (found == column_names.end()) {
       header.unknown.emplace_back(cells[i]);
       continue;
     }

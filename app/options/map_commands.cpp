@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: MIT
+#include "app/options/map_commands.h"
+
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+
+#include "app/options/complaints.h"
+#include "app/options/shared_options.h"
+#include "io/maps.h"
+#include "io/points.h"
+
+namespace loft::app {
+
+namespace {
+
+constexpr const char* map_results = "Results";
+
+/// `even-odd` and `evenodd` are the same.
+std::string without_hyphens(std::string text) {
+  std::erase(text, '-');
+  return text;
+}
+
+void add_layer_option(CLI::App& sub, std::optional<std::string>& property,
+                      const std::string& text) {
+  sub.add_option("--layer-by", property, text)->type_name("NAME");
+}
+
+void add_width_option(CLI::App& sub, io::SvgOptions& drawing) {
+  begin_group(sub, "Drawing (SVG)");
+  sub.add_option("--width", drawing.width, "Width in pixels, default 1200")
+      ->type_name("PIXELS")
+      ->check(CLI::Range(10.0, 100'000.0));
+}
+
+void add_fill_option(CLI::App& sub, overlay::FillRule& fill) {
+  using overlay::FillRule;
+  static const std::map<std::string, FillRule> rules{{"evenodd", FillRule::even_odd},
+                                                     {"nonzero", FillRule::nonzero},
+                                                     {"positive", FillRule::positive},
+                                                     {"negative", FillRule::negative}};
+  sub.add_option_function<std::string>(
+         "--fill", [&fill](const std::string& rule) { fill = rules.at(without_hyphens(rule)); },
+         "What the rings of a layer enclose, by how often they wind around it: an odd number of "
+         "times (evenodd, default; directions do not matter), any but 0 (nonzero), more often "
+         "counter-clockwise (positive) or clockwise (negative)")
+      ->type_name("RULE")
+      ->check(CLI::IsMember({"evenodd", "nonzero", "positive", "negative"}, without_hyphens));
+}
+
+}  // namespace
+
+CLI::App* add_overlay(CLI::App& app, OverlayCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "overlay", "Unite, intersect and subtract the polygons of maps; all their pieces and areas");
+  sub->add_option("IN", command.inputs,
+                  "Map files, " + io::map_extensions() + ", or - for standard input")
+      ->required();
+  begin_group(*sub, "Layers");
+  add_layer_option(*sub, command.layer_by,
+                   "A layer for each value of that property, not for each file; files have no "
+                   "value in common");
+  add_fill_option(*sub, command.fill);
+  begin_group(*sub, map_results);
+  sub->add_option("--keep", command.keep,
+                  "What is wanted: layers by their names and a | b, a & b, a - b, a ^ b, ~a, "
+                  "at_least(2, a, b, c), exactly(1, a, b), parentheses; names in double quotes "
+                  "unless they are letters, digits, _ and .")
+      ->type_name("EXPRESSION");
+  sub->add_flag("--all-pieces", command.all_pieces,
+                "Write each set of layers that cover something, with the property layers, instead "
+                "of one result; with --keep those inside it");
+  sub->add_flag("--areas", command.areas, "Print the areas of layers and result");
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, " + io::map_output_extensions() + "; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->footer(
+      "A file's layer is called as the file is, without folder and extension.\n"
+      "Polygons that come out are valid: simple rings, outer ones counter-clockwise.\n\n"
+      "Examples:\n"
+      "  loft overlay parks.geojson lakes.geojson --keep 'parks - lakes' -o land.geojson\n"
+      "  loft overlay world.geojson --layer-by name --all-pieces -o pieces.geojson -o pieces.svg\n"
+      "  loft overlay plan-a.geojson plan-b.geojson --keep '\"plan-a\" & \"plan-b\"' --areas");
+  return sub;
+}
+
+CLI::App* add_coverage(CLI::App& app, CoverageCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "coverage", "Find and mend overlaps and gaps of a map whose areas should belong to one each");
+  sub->add_option("MAP", command.map,
+                  "Map file, " + io::map_extensions() + ", or - for standard input")
+      ->required();
+  begin_group(*sub, "Faults");
+  sub->add_flag("--check", command.check, "Exit with 1 if there is an overlap or a gap");
+  sub->add_option_function<std::string>(
+         "--clean",
+         [&command](const std::string& heir) {
+           command.clean = heir == "first" ? overlay::Heir::first : overlay::Heir::longest_border;
+         },
+         "Mend the map: an overlap goes to that one of its areas, a narrow gap to that one around "
+         "it, with the longest border to it, or to the first in the map")
+      ->type_name("HEIR")
+      ->check(CLI::IsMember({"longest-border", "first"}));
+  sub->add_option("--gap-width", command.gap_width,
+                  "Gaps in which a disc of that diameter has room are seas, no faults; without it "
+                  "all gaps are listed, and none is mended")
+      ->type_name("LENGTH")
+      ->check(CLI::Validator(complain_of_length, ""));
+  add_layer_option(*sub, command.layer_by,
+                   "Features with the same value of that property are one area (default: each is "
+                   "one, called by its name, or number)");
+  begin_group(*sub, map_results);
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file: .csv, the table of faults; " + io::map_output_extensions() +
+                      ", the mended map, without --clean the faults; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object instead of the table");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->footer(
+      "What one area alone claims stays its own, with its properties.\n\n"
+      "Examples:\n"
+      "  loft coverage parcels.geojson --check --gap-width 0.5\n"
+      "  loft coverage world.geojson --clean longest-border --gap-width 0.01 -o clean.geojson");
+  return sub;
+}
+
+CLI::App* add_query(CLI::App& app, QueryCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "query", "Tell which areas of a map points are in, and how far lines run through each");
+  sub->add_option("MAP", command.map,
+                  "Map file, " + io::map_extensions() + ", or - for standard input")
+      ->required();
+  CLI::Option* const points =
+      sub->add_option("--points", command.points,
+                      "Table of points, " + io::points_extensions() +
+                          ": columns x and y, or lon and lat, or the first two")
+          ->type_name("FILE");
+  sub->add_option("--lines", command.lines, "Lines, " + io::map_extensions())
+      ->type_name("FILE")
+      ->excludes(points);
+  add_layer_option(*sub, command.layer_by,
+                   "Areas are called by that property, and one if it is the same (default: name, "
+                   "or the feature's number)");
+  begin_group(*sub, map_results);
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file, .csv; of lines " + io::map_output_extensions() +
+                      ", too; may be repeated; standard output without it")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->footer(
+      "Of points: x, y, the areas that they are inside of, those on whose border they are.\n"
+      "Of lines: a row for each of those with the length there; .geojson has the pieces.\n"
+      "Several names are parted by semicolons.\n\n"
+      "Examples:\n"
+      "  loft query world.geojson --points towns.csv -o countries.csv\n"
+      "  loft query world.geojson --lines rivers.geojson -o lengths.csv -o pieces.geojson");
+  return sub;
+}
+
+}  // namespace loft::app
