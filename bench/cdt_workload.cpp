@@ -2,7 +2,6 @@
 // Times loft::cdt on a workload file, with the modes, arguments and columns of the CGAL harness it
 // is compared with (see README.md).
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <exception>
@@ -14,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "bench/arguments.h"
 #include "bench/measure.h"
 #include "bench/verify.h"
 #include "bench/workload.h"
@@ -37,30 +37,17 @@ constexpr const char* usage =
     "       cdt_workload poly6 FILE STEPS [CLEANUP]         hexagons come and go\n"
     "CLEANUP is ignored: removal always leaves what would be there without the constraint.\n";
 
-/// The arguments after the mode.
-class Arguments {
- public:
-  Arguments(int argc, char** argv) : words_(argv + 1, argv + argc) {}
+const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
+if (error != std::errc() || end != text.data() + text.size())
+  throw std::invalid_argument(text + " is no number\n" + usage);
+return result;
+}
+[[nodiscard]] int number_or(std::size_t i, int otherwise) const {
+  return i < words_.size() ? number<int>(i) : otherwise;
+}
 
-  [[nodiscard]] std::string word(std::size_t i) const {
-    if (i >= words_.size()) throw std::invalid_argument(usage);
-    return words_[i];
-  }
-  template <class Number>
-  [[nodiscard]] Number number(std::size_t i) const {
-    const std::string text = word(i);
-    Number result{};
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
-    if (error != std::errc() || end != text.data() + text.size())
-      throw std::invalid_argument(text + " is no number\n" + usage);
-    return result;
-  }
-  [[nodiscard]] int number_or(std::size_t i, int otherwise) const {
-    return i < words_.size() ? number<int>(i) : otherwise;
-  }
-
- private:
-  std::vector<std::string> words_;
+private:
+std::vector<std::string> words_;
 };
 
 ConstraintId insert(Triangulation& mesh, const Outline& outline) {

@@ -37,8 +37,9 @@ bool Triangulation::lay_straight(SegmentId s) {
   const Point a = point(segment.from);
   const Point b = point(segment.to);
   VertexId at = segment.from;
+  EdgeId back;
   while (at != segment.to) {
-    const Obstacle obstacle = walk(at, segment.to, a, b);
+    const Obstacle obstacle = walk(at, segment.to, a, b, back);
     const std::size_t vertices = vertex_count_;
     VertexId ahead = obstacle.vertex;
     EdgeId piece = obstacle.edge;
@@ -68,6 +69,7 @@ bool Triangulation::lay_straight(SegmentId s) {
     if (ahead != segment.to && !is_new && misses_something_at(ahead, s)) return false;
     if (!settle_piece(piece, s)) return false;
     at = ahead;
+    back = twin(piece);
   }
   return true;
 }
@@ -91,10 +93,12 @@ VertexId Triangulation::meet(EdgeId e, SegmentId s) {
 
 /// Where s crosses all segments along e, if that is one place.
 std::optional<Point> Triangulation::common_crossing(EdgeId e, SegmentId s) const {
-  const auto [a, b] = ends_of(s);
+  const Point a = point(segment(s).from);
+  const Point b = point(segment(s).to);
   std::optional<Point> place;
   for (const Passage passage : passages(e)) {
-    const auto [c, d] = ends_of(passage.segment());
+    const Point c = point(segment(passage.segment()).from);
+    const Point d = point(segment(passage.segment()).to);
     if (!crosses(a, b, c, d)) return {};
     const Point here = intersection(a, b, c, d);
     if (place && here != *place) return {};
@@ -172,11 +176,13 @@ void Triangulation::mark(EdgeId e, SegmentId s) {
 
 /// What is first in the way from one vertex to another, along the line from a to b that both are
 /// on but for rounding. Fills crossed_ with the edges crossed before that, each from right to
-/// left.
-Triangulation::Obstacle Triangulation::walk(VertexId from, VertexId to, Point a, Point b) {
+/// left. `back`, if known: the edge along which the line has come to `from`, seen from there.
+Triangulation::Obstacle Triangulation::walk(VertexId from, VertexId to, Point a, Point b,
+                                            EdgeId back) {
   crossed_.clear();
   Obstacle obstacle{};
-  EdgeId e = first_crossed(from, to, a, b, obstacle);
+  EdgeId e = back.is_none() ? first_crossed(from, to, a, b, obstacle)
+                            : first_crossed_ahead(back, to, a, b, obstacle);
   if (e.is_none()) return obstacle;
   for (;;) {
     if (is_constrained(e)) return {Obstacle::Kind::constrained_edge, e, {}};
@@ -223,6 +229,24 @@ EdgeId Triangulation::first_crossed(VertexId from, VertexId to, Point a, Point b
   // None: rounding has put `from` beside the line and beyond all others.
   if (found.is_none()) obstacle = {Obstacle::Kind::confusion, EdgeId::none(), {}};
   return found;
+}
+
+/// The same, where `back` tells what is behind: on the right of that the vertices are on the right
+/// of the line, up to what is ahead. Where they are not, all around is looked at.
+EdgeId Triangulation::first_crossed_ahead(EdgeId back, VertexId to, Point a, Point b,
+                                          Obstacle& obstacle) const {
+  const VertexId from = this->from(back);
+  for (EdgeId e = rotated(back), before; e != back; before = e, e = rotated(e)) {
+    const VertexId v = this->to(e);
+    if (v == infinite) break;
+    const int side = v == to ? 0 : orient(a, b, point(v));
+    if (side < 0) continue;
+    if (side > 0 && !before.is_none()) return next(before);
+    if (side > 0 || !(v == to || is_ahead(point(from), point(v), a, b))) break;
+    obstacle = {Obstacle::Kind::edge_along, e, {}};
+    return EdgeId::none();
+  }
+  return first_crossed(from, to, a, b, obstacle);
 }
 
 // --- With an epsilon ---
@@ -322,8 +346,10 @@ std::optional<Point> Triangulation::crossing_point(EdgeId e, SegmentId s) const 
 
 /// The ends of a segment in the order of their coordinates.
 std::pair<Point, Point> Triangulation::ends_of(SegmentId s) const {
-  const Segment& segment = this->segment(s);
-  return std::minmax({point(segment.from), point(segment.to)});
+  const Point a = point(segment(s).from);
+  const Point b = point(segment(s).to);
+  if (b < a) return {b, a};
+  return {a, b};
 }
 
 /// The vertex of the two triangles beside e that is nearest to a place; e is led through it.

@@ -75,12 +75,6 @@ void PassageSets::release(PassageSet set) {
   if (set.is_stored()) give_block(set.block(), class_for(number(set.block())));
 }
 
-std::span<const Passage> PassageSets::view(const PassageSet& set) const {
-  if (set.is_empty()) return {};
-  if (set.is_stored()) return {words_.data() + set.block() + 1, number(set.block())};
-  return {&set.only_, 1};
-}
-
 void PassageSets::clear() {
   words_.clear();
   free_.fill(no_block);

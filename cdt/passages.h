@@ -75,7 +75,11 @@ class PassageSets {
   void release(PassageSet set);
   /// The members, sorted. A set of one is viewed in place: `set` must outlive the view, and no
   /// set may be changed meanwhile.
-  [[nodiscard]] std::span<const Passage> view(const PassageSet& set) const;
+  [[nodiscard]] std::span<const Passage> view(const PassageSet& set) const {
+    if (set.is_empty()) return {};
+    if (set.is_stored()) return {words_.data() + set.block() + 1, number(set.block())};
+    return {&set.only_, 1};
+  }
 
   void clear();
 

@@ -15,6 +15,10 @@ struct Point {
 
   friend bool operator==(const Point&, const Point&) = default;
   friend auto operator<=>(const Point&, const Point&) = default;
+  /// As above, in fewer branches.
+  friend bool operator<(const Point& p, const Point& q) {
+    return p.x < q.x || (p.x == q.x && p.y < q.y);
+  }
   friend std::ostream& operator<<(std::ostream& out, const Point& p) {
     return out << '(' << p.x << ", " << p.y << ')';
   }

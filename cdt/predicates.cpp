@@ -16,14 +16,14 @@ namespace {
 
 // --- Twice the precision: much faster than exact, and nearly always enough ---
 
-TwoTerms operator+(TwoTerms a, TwoTerms b) {
+inline TwoTerms operator+(TwoTerms a, TwoTerms b) {
   const auto [high, low] = two_sum(a.high, b.high);
   return two_sum(high, low + (a.low + b.low));
 }
 
-TwoTerms operator-(TwoTerms a, TwoTerms b) { return a + TwoTerms{-b.high, -b.low}; }
+inline TwoTerms operator-(TwoTerms a, TwoTerms b) { return a + TwoTerms{-b.high, -b.low}; }
 
-TwoTerms operator*(TwoTerms a, TwoTerms b) {
+inline TwoTerms operator*(TwoTerms a, TwoTerms b) {
   const auto [high, low] = two_product(a.high, b.high);
   return fast_two_sum(high, low + (a.high * b.low + a.low * b.high));
 }
@@ -46,6 +46,15 @@ using ExactVector = Vector<Expansion<2>>;
 Vector<TwoTerms> difference(Point a, Point b) { return {two_diff(a.x, b.x), two_diff(a.y, b.y)}; }
 
 ExactVector exact(const Vector<TwoTerms>& a) { return {Expansion<2>(a.x), Expansion<2>(a.y)}; }
+
+/// Whether one term each is enough.
+bool is_short(const Vector<TwoTerms>& a) { return a.x.low == 0 && a.y.low == 0; }
+
+/// Which of two results of operations is larger: rounding keeps their order.
+int compare(TwoTerms a, TwoTerms b) {
+  if (a.high != b.high) return a.high > b.high ? 1 : -1;
+  return a.low == b.low ? 0 : a.low > b.low ? 1 : -1;
+}
 
 /// A bound for the length, in plain precision.
 double reach(const Vector<TwoTerms>& a) { return std::abs(a.x.high) + std::abs(a.y.high); }
@@ -93,26 +102,40 @@ std::optional<double> certain_rounding(TwoTerms sum, double slack) {
 struct Approximate {
   TwoTerms value;
   double error;
-
-  [[nodiscard]] double relative_error() const { return error / std::abs(value.high); }
 };
 
+/// Where products may have underflowed the error is infinite.
 Approximate approximate_cross(const Vector<TwoTerms>& a, const Vector<TwoTerms>& b) {
-  return {cross(a, b), doubled_rounding * reach(a) * reach(b)};
+  const double error = doubled_rounding * reach(a) * reach(b);
+  const bool is_sound = error >= std::numeric_limits<double>::min();
+  return {cross(a, b), is_sound ? error : std::numeric_limits<double>::infinity()};
 }
 
-/// The quotient rounded to double where its error leaves no doubt.
-std::optional<double> rounded_quotient(const Approximate& numerator,
-                                       const Approximate& denominator) {
+/// Their quotient, where the denominator is certain enough. With D for that and N for the numerator
+/// without error, and n / d for the quotient of what is known of them, N / D is off by at most
+/// (|N - n| + |n / d| |D - d|) / |D|, where |D| is at least 3/4 |d|. Twice, for rounding that
+/// bound.
+std::optional<Approximate> quotient(const Approximate& numerator, const Approximate& denominator) {
   const TwoTerms& n = numerator.value;
   const TwoTerms& d = denominator.value;
+  const double size = std::abs(d.high);
+  if (!(4 * denominator.error < size)) return std::nullopt;
   const double guess = n.high / d.high;
   const double correction = (n - d * TwoTerms{guess, 0}).high / d.high;
-  // Twice, for what is of second order.
-  const double slack =
-      2 * std::abs(guess) *
-      (numerator.relative_error() + denominator.relative_error() + doubled_rounding);
-  return certain_rounding({guess, correction}, slack);
+  const double error = (numerator.error + std::abs(guess) * denominator.error) / size;
+  return Approximate{fast_two_sum(guess, correction),
+                     2 * (error + doubled_rounding * std::abs(guess))};
+}
+
+/// start + share * way rounded to double where the error of the share leaves no doubt.
+std::optional<double> rounded_advance(double start, const Approximate& share, TwoTerms way) {
+  if (way.high == 0) return start + 0.0;  // never -0
+  const TwoTerms advance = share.value * way;
+  const auto [high, low] = two_sum(start, advance.high);
+  const double slack = 2 * (std::abs(way.high) * share.error +
+                            doubled_rounding * (std::abs(start) + std::abs(advance.high)));
+  if (slack < std::numeric_limits<double>::min()) return std::nullopt;  // it has underflowed
+  return certain_rounding({high, low + advance.low}, slack);
 }
 
 bool is_odd(double value) { return (std::bit_cast<std::uint64_t>(value) & 1) != 0; }
@@ -167,7 +190,14 @@ struct Quotient {
 namespace detail {
 
 int orient_exact(Point a, Point b, Point c) {
-  return cross(exact(difference(a, c)), exact(difference(b, c))).sign();
+  const auto ac = difference(a, c);
+  const auto bc = difference(b, c);
+  if (is_short(ac) && is_short(bc))
+    return compare(two_product(ac.x.high, bc.y.high), two_product(ac.y.high, bc.x.high));
+  const auto [area, error] = approximate_cross(ac, bc);
+  if (area.high > error) return 1;
+  if (area.high < -error) return -1;
+  return cross(exact(ac), exact(bc)).sign();
 }
 
 int in_circle_exact(Point a, Point b, Point c, Point d) {
@@ -257,24 +287,19 @@ bool crosses(Point a, Point b, Point c, Point d) {
 Point intersection(Point a, Point b, Point c, Point d) {
   const auto line = difference(d, c);
   const auto from_a = difference(a, c);
-  const auto from_b = difference(b, c);
   const auto way = difference(a, b);
-
   const auto exactly = [&](double at_a, double at_b) {
     const auto to_a = cross(exact(line), exact(from_a));
-    const auto to_b = cross(exact(line), exact(from_b));
+    const auto to_b = cross(exact(line), exact(difference(b, c)));
     return Quotient{to_a * at_b - to_b * at_a, cross(exact(line), exact(way))}.rounded();
   };
-  const Approximate to_a = approximate_cross(line, from_a);
-  const Approximate to_b = approximate_cross(line, from_b);
-  const Approximate across = approximate_cross(line, way);
-  const auto at = [&](double at_a, double at_b) {
-    const TwoTerms numerator = to_a.value * TwoTerms{at_b, 0} - to_b.value * TwoTerms{at_a, 0};
-    const double error = to_a.error * std::abs(at_b) + to_b.error * std::abs(at_a);
-    const auto quick = rounded_quotient({numerator, error}, across);
+  const auto share = quotient(approximate_cross(line, from_a), approximate_cross(line, way));
+  const auto at = [&](double at_a, double at_b, TwoTerms back) {
+    const auto quick =
+        share ? rounded_advance(at_a, *share, {-back.high, -back.low}) : std::nullopt;
     return quick ? *quick : exactly(at_a, at_b);
   };
-  return {at(a.x, b.x), at(a.y, b.y)};
+  return {at(a.x, b.x, way.x), at(a.y, b.y, way.y)};
 }
 
 }  // namespace loft::cdt

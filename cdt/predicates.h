@@ -114,15 +114,14 @@ struct Sight {
 };
 
 /// in_circle of three points and the one that they are seen from; 0 where only exact arithmetic can
-/// tell, and where one of them is at infinity.
+/// tell, and where one of them is at infinity. The magnitude is bounded by the lifts A, B and C:
+/// |b.x c.y| + |c.x b.y| is at most the product of the two lengths, so at most (B + C) / 2.
 inline int in_circle_filter(const Sight& a, const Sight& b, const Sight& c) {
   const double bc = b.x * c.y, cb = c.x * b.y;
   const double ca = c.x * a.y, ac = a.x * c.y;
   const double ab = a.x * b.y, ba = b.x * a.y;
   const double determinant = a.lift * (bc - cb) + b.lift * (ca - ac) + c.lift * (ab - ba);
-  const double magnitude = a.lift * (std::abs(bc) + std::abs(cb)) +
-                           b.lift * (std::abs(ca) + std::abs(ac)) +
-                           c.lift * (std::abs(ab) + std::abs(ba));
+  const double magnitude = a.lift * (b.lift + c.lift) + b.lift * c.lift;
   const double bound = detail::in_circle_bound * magnitude;
   if (determinant > bound) return 1;
   if (determinant < -bound) return -1;

@@ -421,6 +421,7 @@ class Triangulation {
   void extend(EdgeId end_to_infinity, VertexId v);
   void split_triangle(TriangleId t, VertexId v);
   void split_edge(EdgeId e, VertexId v);
+  [[nodiscard]] bool is_in_both_circles(EdgeId e, Point place) const;
   [[nodiscard]] VertexId split_edge_at(EdgeId e, Point place);
   void fan_out(VertexId v);
   [[nodiscard]] bool is_crowded_by(EdgeId e, Point place) const;
@@ -443,9 +444,12 @@ class Triangulation {
   [[nodiscard]] bool misses_something_at(VertexId v, SegmentId s) const;
   [[nodiscard]] bool crosses_elsewhere(SegmentId one, SegmentId other, Point place) const;
   [[nodiscard]] EdgeId connect(VertexId from, VertexId to, SegmentId s);
-  [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b);
+  [[nodiscard]] Obstacle walk(VertexId from, VertexId to, Point a, Point b,
+                              EdgeId back = EdgeId::none());
   [[nodiscard]] EdgeId first_crossed(VertexId from, VertexId to, Point a, Point b,
                                      Obstacle& obstacle) const;
+  [[nodiscard]] EdgeId first_crossed_ahead(EdgeId back, VertexId to, Point a, Point b,
+                                           Obstacle& obstacle) const;
   [[nodiscard]] bool crosses_at(SegmentId one, SegmentId other, Point place) const;
   [[nodiscard]] EdgeId edge_between(VertexId from, VertexId to) const;
   void lay_crooked(SegmentId s, VertexId at);

@@ -287,18 +287,20 @@ void Triangulation::split_edge(EdgeId e, VertexId v) {
   const VertexId starts[4] = {c, b, d, a};
   const VertexId ends[4] = {a, c, b, d};
   const TriangleId parts[4] = {triangle(e), new_triangle(), triangle(f), new_triangle()};
-  for (unsigned i = 0; i < 4; ++i) {
-    set_from(edge(parts[i], 0), starts[i]);
-    set_from(edge(parts[i], 1), ends[i]);
-    set_from(edge(parts[i], 2), v);
+  if (is_flat_) {
+    // At the end of a line of vertices the two infinite triangles are neighbours twice.
+    for (Side& beyond : sides)
+      if (const auto* edge_here = std::ranges::find(old, EdgeId(beyond.bits));
+          edge_here != std::end(old))
+        beyond.bits = edge(parts[edge_here - old], 0).index();
   }
   for (unsigned i = 0; i < 4; ++i) {
-    // At the end of a line of vertices the two infinite triangles are neighbours twice.
-    const std::uint32_t beyond = sides[i].bits;
-    for (unsigned j = 0; is_flat_ && j < 4; ++j)
-      if (beyond == old[j].index()) sides[i].bits = edge(parts[j], 0).index();
-    attach(edge(parts[i], 0), sides[i]);
-    vertex_edges_[starts[i].index()] = edge(parts[i], 0);
+    const EdgeId outer = edge(parts[i], 0);
+    set_from(outer, starts[i]);
+    set_from(edge(parts[i], 1), ends[i]);
+    set_from(edge(parts[i], 2), v);
+    attach(outer, sides[i]);
+    vertex_edges_[starts[i].index()] = outer;
   }
   // A rounded point may lie beyond the ends in the lexicographic order: turn the passages then.
   const auto half = [&](VertexId low, VertexId high, PassageSet passages) {
@@ -396,12 +398,27 @@ void Triangulation::flip_away(EdgeId e, VertexId v, VertexId d) {
   vertex_edges_[d.index()] = edge(u, 0);
 }
 
-/// A new vertex on an edge, or so near that it bends it.
+/// Whether a place is clearly in the circles of both triangles beside e.
+bool Triangulation::is_in_both_circles(EdgeId e, Point place) const {
+  using detail::Sight;
+  const Sight to_a(place, point(from(e)));
+  const Sight to_b(place, point(to(e)));
+  const Sight to_c(place, point(apex(e)));
+  const Sight to_d(place, point(apex(twin(e))));
+  return detail::in_circle_filter(to_a, to_b, to_c) > 0 &&
+         detail::in_circle_filter(to_b, to_a, to_d) > 0;
+}
+
+/// A new vertex on an edge, or so near that it bends it. In the circles of both triangles there it
+/// is joined to its neighbours by edges that are Delaunay, as any point in a triangle is (Lawson):
+/// each of them has a circle inside that of a triangle which made way. If only rounding has put it
+/// beside the edge, it is in both but for the flattest ones.
 VertexId Triangulation::split_edge_at(EdgeId e, Point place) {
-  const bool is_straight = orient(point(from(e)), point(to(e)), place) == 0;
+  const bool is_bent =
+      !is_in_both_circles(e, place) && orient(point(from(e)), point(to(e)), place) != 0;
   const VertexId v = new_vertex(place);
   split_edge(e, v);
-  if (!is_straight) {
+  if (is_bent) {
     is_flat_ = false;
     push_star(v);
     // What fan_out() has seen holds for as long as nothing around has changed.
@@ -412,19 +429,17 @@ VertexId Triangulation::split_edge_at(EdgeId e, Point place) {
 
 bool Triangulation::can_split(EdgeId e, Point p) const {
   if (from(e) == infinite || to(e) == infinite) return false;
+  // On the left of the way from a to b by the corner between them?
+  const auto is_within = [&](Point a, Point b, VertexId corner) {
+    if (corner != infinite)
+      return orient(a, point(corner), p) > 0 && orient(point(corner), b, p) > 0;
+    // Nothing stands in the way beyond the hull, but the point is to be beside the edge.
+    if (!is_alongside(a, b, p) || p == a || p == b) return false;
+    return orient(a, b, p) != 0 || is_between(a, b, p);
+  };
   const Point a = point(from(e));
   const Point b = point(to(e));
-  const EdgeId around[4] = {next(e), prev(e), next(twin(e)), prev(twin(e))};
-  for (const EdgeId side : around) {
-    if (from(side) == infinite || to(side) == infinite) {
-      // Nothing stands in the way beyond the hull, but the point is to be beside the edge.
-      if (!is_alongside(a, b, p) || p == a || p == b) return false;
-      if (orient(a, b, p) == 0 && !is_between(a, b, p)) return false;
-    } else if (orient(point(from(side)), point(to(side)), p) <= 0) {
-      return false;
-    }
-  }
-  return true;
+  return is_within(b, a, apex(e)) && is_within(a, b, apex(twin(e)));
 }
 
 /// Turns the diagonal of the two triangles beside e, which must make a convex quadrilateral.

@@ -54,7 +54,7 @@ class ArcMaker {
   Topology::ArcRing arcs_of(TracedRing ring) {
     if (const auto end = std::ranges::find_if(ring, [&](EdgeId e) { return is_end(e); });
         end != ring.end())
-      std::ranges::rotate(ring, end);
+      std::rotate(ring.begin(), end, ring.end());
     Topology::ArcRing result;
     for (std::size_t first = 0; first < ring.size();) {
       std::size_t last = first + 1;
@@ -102,7 +102,7 @@ MultiPolygon polygons(const Topology& topology, LayerId layer) {
         if (number < 0) std::ranges::reverse(points);
         ring.insert(ring.end(), points.begin(), points.end() - 1);
       }
-      std::ranges::rotate(ring, std::ranges::min_element(ring));
+      std::rotate(ring.begin(), std::ranges::min_element(ring), ring.end());
       if (polygon.outer.empty())
         polygon.outer = std::move(ring);
       else

@@ -225,7 +225,7 @@ template <class IsWanted>
 void append_stretches(const Triangulation& mesh, TracedRing ring, IsWanted is_wanted,
                       std::vector<std::vector<Point>>& stretches) {
   const auto first_not = std::ranges::find_if_not(ring, is_wanted);
-  if (first_not != ring.end()) std::ranges::rotate(ring, first_not);
+  if (first_not != ring.end()) std::rotate(ring.begin(), first_not, ring.end());
   bool goes_on = false;
   for (const EdgeId e : ring) {
     const bool wanted = is_wanted(e);

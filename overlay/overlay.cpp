@@ -4,276 +4,17 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
-#include <sstream>
 #include <stdexcept>
 #include <utility>
 
-#include "cdt/follow.h"
 #include "cdt/predicates.h"
 #include "overlay/distance.h"
-#include "overlay/formula.h"
-#include "overlay/lists_by_cover.h"
-#include "overlay/windings.h"
+#include "overlay/parts.h"
 
 namespace loft::overlay {
 
 using cdt::TriangleId;
 using cdt::Triangulation;
-
-namespace {
-
-struct Layer {
-  std::string name;
-  FillRule rule;
-  std::vector<RingId> rings;
-};
-
-/// Where a ring is listed.
-struct Listing {
-  LayerId layer;
-  std::uint32_t place = 0;  // in the layer's rings
-};
-
-/// What is kept of an expression.
-struct Result {
-  explicit Result(Expression expression) : what(std::move(expression)), formula(what) {}
-
-  Expression what;
-  Formula formula;
-  std::vector<std::uint32_t> is_in;  // by cover: 1 or 0
-  Border border;
-  ExactArea area;
-  ResultChange change;
-};
-
-/// Takes out what is at the same places in both: there was no change.
-void leave_out_common(std::vector<BorderEdge>& gone, std::vector<BorderEdge>& come) {
-  if (gone.empty() || come.empty()) return;
-  const auto is_before = [](const BorderEdge& a, const BorderEdge& b) { return a.is_before(b); };
-  std::ranges::sort(gone, is_before);
-  std::ranges::sort(come, is_before);
-  std::vector<BorderEdge> only_gone;
-  std::vector<BorderEdge> only_come;
-  std::ranges::set_difference(gone, come, std::back_inserter(only_gone), is_before);
-  std::ranges::set_difference(come, gone, std::back_inserter(only_come), is_before);
-  gone = std::move(only_gone);
-  come = std::move(only_come);
-}
-
-}  // namespace
-
-struct Overlay::Parts {
-  /// What a passage along an edge does to windings.
-  struct Cross {
-    Parts* parts;
-
-    WindingId operator()(EdgeId e, WindingId here) const {
-      const Triangulation& mesh = parts->mesh;
-      for (const cdt::Passage passage : mesh.passages(e)) {
-        const RingId ring = mesh.segment(passage.segment()).constraint;
-        if (mesh.ends(ring) == open) continue;
-        here = parts->windings.crossed(here, parts->listings[ring.index()].layer,
-                                       mesh.is_forward(e, passage) ? -1 : 1);
-      }
-      return here;
-    }
-  };
-
-  Parts() : follower(mesh, WindingId(0), Cross{this}) { mesh.record_changes(true); }
-
-  Triangulation mesh;
-  std::vector<Layer> layers;
-  std::vector<Listing> listings;  // by constraint
-  Windings windings;
-  std::uint32_t windings_at_rebuild = 0;
-  cdt::Follower<WindingId, Cross> follower;
-  ListsByCover covers;
-  std::vector<std::optional<Result>> results;
-  bool is_in_batch = false;
-
-  // What is asked for.
-  [[nodiscard]] Layer& known(LayerId layer) {
-    if (layer.index() >= layers.size())
-      throw std::invalid_argument("overlay: there is no such layer");
-    return layers[layer.index()];
-  }
-  [[nodiscard]] Result& known(ResultId result) {
-    if (result.index() >= results.size() || !results[result.index()])
-      throw std::invalid_argument("overlay: there is no such result");
-    return *results[result.index()];
-  }
-  void check_known(RingId ring) const {
-    if (!mesh.is_constraint(ring)) throw std::invalid_argument("overlay: there is no such ring");
-  }
-  void check_usable(LayerId layer, std::span<const Point> points) const;
-  [[nodiscard]] Regions region(const Result& result) const {
-    return {.mesh = &mesh, .covers = covers.by_triangle(), .region_of = result.is_in};
-  }
-
-  // Rings.
-  void list(RingId ring, LayerId layer);
-  void unlist(RingId ring);
-
-  // After an edit.
-  void finish_edit();
-  void follow();
-  void rebuild();
-  void flood_again();
-  void cover_anew(TriangleId t);
-  void learn_truths(Result& result);
-  void update(Result& result);
-  void take_border(Result& result, EdgeId e);
-  void check_border(Result& result, EdgeId e);
-  void check_borders(Result& result, TriangleId t);
-  void build_border(Result& result);
-  void sum_up(Result& result);
-};
-
-void Overlay::Parts::check_usable(LayerId layer, std::span<const Point> points) const {
-  const auto fail = [&](const std::string& what) {
-    throw std::invalid_argument("overlay: layer '" + layers[layer.index()].name + "', ring " +
-                                std::to_string(layers[layer.index()].rings.size()) + ": " + what);
-  };
-  if (points.empty()) fail("has no point");
-  for (const Point& p : points) {
-    if (Triangulation::is_usable(p.x) && Triangulation::is_usable(p.y)) continue;
-    std::ostringstream place;
-    place << "point " << &p - points.data() << ' ' << p
-          << " is not usable: coordinates are 0 or between 1e-50 and 1e75 in magnitude";
-    fail(place.str());
-  }
-}
-
-void Overlay::Parts::list(RingId ring, LayerId layer) {
-  if (listings.size() <= ring.index()) listings.resize(ring.index() + 1);
-  std::vector<RingId>& rings = layers[layer.index()].rings;
-  listings[ring.index()] = {layer, static_cast<std::uint32_t>(rings.size())};
-  rings.push_back(ring);
-}
-
-void Overlay::Parts::unlist(RingId ring) {
-  const auto [layer, place] = listings[ring.index()];
-  std::vector<RingId>& rings = layers[layer.index()].rings;
-  rings[place] = rings.back();
-  listings[rings[place].index()].place = place;
-  rings.pop_back();
-}
-
-void Overlay::Parts::finish_edit() {
-  if (is_in_batch) return;
-  follow();
-  constexpr std::uint32_t spare = 4096;
-  if (windings.size() > 2 * windings_at_rebuild + spare) flood_again();
-}
-
-/// Takes over what an edit did, in what it made and what changed its windings.
-void Overlay::Parts::follow() {
-  const cdt::Changes& changes = mesh.changes();
-  follower.follow(changes);
-  covers.grow(mesh.triangle_bound(), windings.cover_count());
-  for (const TriangleId t : changes.unmade) covers.set(t, nothing);
-  for (const TriangleId t : changes.made) cover_anew(t);
-  for (const TriangleId t : follower.changed()) cover_anew(t);
-  for (auto& result : results)
-    if (result) update(*result);
-}
-
-void Overlay::Parts::cover_anew(TriangleId t) { covers.set(t, windings.cover(follower[t])); }
-
-/// Everything from nothing, as after edits that are as large as all there is.
-void Overlay::Parts::rebuild() {
-  flood_again();
-  for (auto& result : results) {
-    if (!result) continue;
-    result->change.gone.assign(result->border.edges().begin(), result->border.edges().end());
-    build_border(*result);
-  }
-}
-
-/// Forgets windings and covers that are nowhere any more.
-void Overlay::Parts::flood_again() {
-  windings.forget();
-  follower.begin();
-  windings_at_rebuild = windings.size();
-  covers.clear();
-  covers.grow(mesh.triangle_bound(), windings.cover_count());
-  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i) cover_anew(TriangleId(i));
-  for (auto& result : results) {
-    if (!result) continue;
-    result->is_in.clear();
-    learn_truths(*result);
-  }
-}
-
-void Overlay::Parts::learn_truths(Result& result) {
-  for (auto c = static_cast<std::uint32_t>(result.is_in.size()); c < windings.cover_count(); ++c)
-    result.is_in.push_back(result.formula.is_true(windings.layers(CoverId(c))) ? 1 : 0);
-}
-
-void Overlay::Parts::update(Result& result) {
-  learn_truths(result);
-  result.change = {};
-  const cdt::Changes& changes = mesh.changes();
-  for (const TriangleId t : changes.unmade)
-    for (unsigned corner = 0; corner < 3; ++corner)
-      take_border(result, Triangulation::edge(t, corner));
-  for (const TriangleId t : changes.made) check_borders(result, t);
-  for (const TriangleId t : follower.changed()) check_borders(result, t);
-  sum_up(result);
-}
-
-void Overlay::Parts::take_border(Result& result, EdgeId e) {
-  if (const auto taken = result.border.take(e)) result.change.gone.push_back(*taken);
-}
-
-/// Whether an edge is on the border may have changed.
-void Overlay::Parts::check_border(Result& result, EdgeId e) {
-  const bool is_border = region(result).has_border(e);
-  if (is_border == result.border.has(e)) return;
-  if (!is_border) return take_border(result, e);
-  const BorderEdge edge{e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))};
-  result.border.add(edge);
-  result.change.come.push_back(edge);
-}
-
-/// Covers differ across constrained edges alone.
-void Overlay::Parts::check_borders(Result& result, TriangleId t) {
-  for (unsigned corner = 0; corner < 3; ++corner) {
-    const EdgeId e = Triangulation::edge(t, corner);
-    if (!mesh.is_constrained(e)) continue;
-    check_border(result, e);
-    check_border(result, mesh.twin(e));
-  }
-}
-
-/// All of a result's border, which is in `come` then, as what there was is in `gone`.
-void Overlay::Parts::build_border(Result& result) {
-  result.border.clear();
-  result.change.come.clear();
-  const Regions where = region(result);
-  for (std::uint32_t c = 0; c < result.is_in.size(); ++c) {
-    if (result.is_in[c] == 0) continue;
-    covers.for_each(CoverId(c), [&](TriangleId t) {
-      for (unsigned corner = 0; corner < 3; ++corner) {
-        const EdgeId e = Triangulation::edge(t, corner);
-        if (where.right_of(e) != 0) continue;
-        result.border.add({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
-      }
-    });
-  }
-  result.change.come.assign(result.border.edges().begin(), result.border.edges().end());
-  sum_up(result);
-}
-
-void Overlay::Parts::sum_up(Result& result) {
-  ResultChange& change = result.change;
-  leave_out_common(change.gone, change.come);
-  change.area = {};
-  for (const BorderEdge& edge : change.gone) change.area.subtract_piece(edge.from, edge.to);
-  for (const BorderEdge& edge : change.come) change.area.add_piece(edge.from, edge.to);
-  result.area += change.area;
-}
 
 Overlay::Overlay() : parts_(std::make_unique<Parts>()) {}
 Overlay::~Overlay() = default;
@@ -517,23 +258,23 @@ class CoverAround {
 }  // namespace
 
 Cover Overlay::cover(Point p) const {
-  using Kind = cdt::Location::Kind;
+  using Where = cdt::Location::Kind;
   const Triangulation& mesh = parts_->mesh;
   const cdt::Location place = mesh.locate(p);
   CoverAround around;
   const auto add_left_of = [&](EdgeId e) { around.add(layers(cover(Triangulation::triangle(e)))); };
   switch (place.kind) {
-    case Kind::nowhere:
-    case Kind::outside:
+    case Where::nowhere:
+    case Where::outside:
       break;
-    case Kind::triangle:
+    case Where::triangle:
       add_left_of(place.edge);
       break;
-    case Kind::edge:
+    case Where::edge:
       add_left_of(place.edge);
       add_left_of(mesh.twin(place.edge));
       break;
-    case Kind::vertex:
+    case Where::vertex:
       for (EdgeId e = place.edge;;) {
         add_left_of(e);
         if ((e = mesh.rotated(e)) == place.edge) break;
@@ -589,7 +330,7 @@ std::vector<RingId> Overlay::rings_without_inside() const {
     if (!mesh.is_constraint(ring) || mesh.ends(ring) == open) continue;
     std::vector<Point> points = mesh.points(ring);
     std::ranges::sort(points);
-    if (std::ranges::unique(points).begin() - points.begin() < 3) result.push_back(ring);
+    if (std::unique(points.begin(), points.end()) - points.begin() < 3) result.push_back(ring);
   }
   return result;
 }

@@ -87,8 +87,8 @@ class Tracer {
       place_of_.erase(mesh_->from(path_[i]).index());
     TracedRing ring(path_.begin() + first, path_.end());
     path_.resize(first);
-    std::ranges::rotate(ring,
-                        std::ranges::min_element(ring, {}, [&](EdgeId e) { return from(e); }));
+    const auto smallest = std::ranges::min_element(ring, {}, [&](EdgeId e) { return from(e); });
+    std::rotate(ring.begin(), smallest, ring.end());
     rings_.push_back(std::move(ring));
   }
 

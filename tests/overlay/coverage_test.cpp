@@ -13,16 +13,13 @@
 #include "overlay/faces.h"
 #include "overlay/inscribed.h"
 #include "tests/cases.h"
+#include "tests/overlay/boxes.h"
 
 namespace loft::overlay {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-Ring box(double x0, double y0, double x1, double y1) {
-  return {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-}
 
 /// A map of named areas.
 struct Map {

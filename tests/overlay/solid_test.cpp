@@ -8,16 +8,13 @@
 
 #include "overlay/boolean.h"
 #include "tests/cases.h"
+#include "tests/overlay/boxes.h"
 
 namespace loft::overlay {
 namespace {
 
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-
-Ring square(double x, double y, double size) {
-  return {{x, y}, {x + size, y}, {x + size, y + size}, {x, y + size}};
-}
 
 TEST(Solid, AGasketWhoseHoleMoves) {
   Solid solid;

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: MIT
+#include "overlay/parts.h"
+
+#include <algorithm>
+#include <iterator>
+#include <sstream>
+
+namespace loft::overlay {
+
+using cdt::TriangleId;
+using cdt::Triangulation;
+
+namespace {
+
+/// Takes out what is at the same places in both: there was no change.
+void leave_out_common(std::vector<BorderEdge>& gone, std::vector<BorderEdge>& come) {
+  if (gone.empty() || come.empty()) return;
+  const auto is_before = [](const BorderEdge& a, const BorderEdge& b) { return a.is_before(b); };
+  std::ranges::sort(gone, is_before);
+  std::ranges::sort(come, is_before);
+  std::vector<BorderEdge> only_gone;
+  std::vector<BorderEdge> only_come;
+  std::ranges::set_difference(gone, come, std::back_inserter(only_gone), is_before);
+  std::ranges::set_difference(come, gone, std::back_inserter(only_come), is_before);
+  gone = std::move(only_gone);
+  come = std::move(only_come);
+}
+
+}  // namespace
+
+void Overlay::Parts::check_usable(LayerId layer, std::span<const Point> points) const {
+  const auto fail = [&](const std::string& what) {
+    throw std::invalid_argument("overlay: layer '" + layers[layer.index()].name + "', ring " +
+                                std::to_string(layers[layer.index()].rings.size()) + ": " + what);
+  };
+  if (points.empty()) fail("has no point");
+  for (const Point& p : points) {
+    if (Triangulation::is_usable(p.x) && Triangulation::is_usable(p.y)) continue;
+    std::ostringstream place;
+    place << "point " << &p - points.data() << ' ' << p
+          << " is not usable: coordinates are 0 or between 1e-50 and 1e75 in magnitude";
+    fail(place.str());
+  }
+}
+
+void Overlay::Parts::list(RingId ring, LayerId layer) {
+  if (listings.size() <= ring.index()) listings.resize(ring.index() + 1);
+  std::vector<RingId>& rings = layers[layer.index()].rings;
+  listings[ring.index()] = {layer, static_cast<std::uint32_t>(rings.size())};
+  rings.push_back(ring);
+}
+
+void Overlay::Parts::unlist(RingId ring) {
+  const auto [layer, place] = listings[ring.index()];
+  std::vector<RingId>& rings = layers[layer.index()].rings;
+  rings[place] = rings.back();
+  listings[rings[place].index()].place = place;
+  rings.pop_back();
+}
+
+void Overlay::Parts::finish_edit() {
+  if (is_in_batch) return;
+  follow();
+  constexpr std::uint32_t spare = 4096;
+  if (windings.size() > 2 * windings_at_rebuild + spare) flood_again();
+}
+
+/// Takes over what an edit did, in what it made and what changed its windings.
+void Overlay::Parts::follow() {
+  const cdt::Changes& changes = mesh.changes();
+  follower.follow(changes);
+  covers.grow(mesh.triangle_bound(), windings.cover_count());
+  for (const TriangleId t : changes.unmade) covers.set(t, nothing);
+  for (const TriangleId t : changes.made) cover_anew(t);
+  for (const TriangleId t : follower.changed()) cover_anew(t);
+  for (auto& result : results)
+    if (result) update(*result);
+}
+
+void Overlay::Parts::cover_anew(TriangleId t) { covers.set(t, windings.cover(follower[t])); }
+
+/// Everything from nothing, as after edits that are as large as all there is.
+void Overlay::Parts::rebuild() {
+  flood_again();
+  for (auto& result : results) {
+    if (!result) continue;
+    result->change.gone.assign(result->border.edges().begin(), result->border.edges().end());
+    build_border(*result);
+  }
+}
+
+/// Forgets windings and covers that are nowhere any more.
+void Overlay::Parts::flood_again() {
+  windings.forget();
+  follower.begin();
+  windings_at_rebuild = windings.size();
+  covers.clear();
+  covers.grow(mesh.triangle_bound(), windings.cover_count());
+  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i) cover_anew(TriangleId(i));
+  for (auto& result : results) {
+    if (!result) continue;
+    result->is_in.clear();
+    learn_truths(*result);
+  }
+}
+
+void Overlay::Parts::learn_truths(Result& result) {
+  for (auto c = static_cast<std::uint32_t>(result.is_in.size()); c < windings.cover_count(); ++c)
+    result.is_in.push_back(result.formula.is_true(windings.layers(CoverId(c))) ? 1 : 0);
+}
+
+void Overlay::Parts::update(Result& result) {
+  learn_truths(result);
+  result.change = {};
+  const cdt::Changes& changes = mesh.changes();
+  for (const TriangleId t : changes.unmade)
+    for (unsigned corner = 0; corner < 3; ++corner)
+      take_border(result, Triangulation::edge(t, corner));
+  for (const TriangleId t : changes.made) check_borders(result, t);
+  for (const TriangleId t : follower.changed()) check_borders(result, t);
+  sum_up(result);
+}
+
+void Overlay::Parts::take_border(Result& result, EdgeId e) {
+  if (const auto taken = result.border.take(e)) result.change.gone.push_back(*taken);
+}
+
+/// Whether an edge is on the border may have changed.
+void Overlay::Parts::check_border(Result& result, EdgeId e) {
+  const bool is_border = region(result).has_border(e);
+  if (is_border == result.border.has(e)) return;
+  if (!is_border) return take_border(result, e);
+  const BorderEdge edge{e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))};
+  result.border.add(edge);
+  result.change.come.push_back(edge);
+}
+
+/// Covers differ across constrained edges alone.
+void Overlay::Parts::check_borders(Result& result, TriangleId t) {
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const EdgeId e = Triangulation::edge(t, corner);
+    if (!mesh.is_constrained(e)) continue;
+    check_border(result, e);
+    check_border(result, mesh.twin(e));
+  }
+}
+
+/// All of a result's border, which is in `come` then, as what there was is in `gone`.
+void Overlay::Parts::build_border(Result& result) {
+  result.border.clear();
+  result.change.come.clear();
+  const Regions where = region(result);
+  for (std::uint32_t c = 0; c < result.is_in.size(); ++c) {
+    if (result.is_in[c] == 0) continue;
+    covers.for_each(CoverId(c), [&](TriangleId t) {
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        const EdgeId e = Triangulation::edge(t, corner);
+        if (where.right_of(e) != 0) continue;
+        result.border.add({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
+      }
+    });
+  }
+  result.change.come.assign(result.border.edges().begin(), result.border.edges().end());
+  sum_up(result);
+}
+
+void Overlay::Parts::sum_up(Result& result) {
+  ResultChange& change = result.change;
+  leave_out_common(change.gone, change.come);
+  change.area = {};
+  for (const BorderEdge& edge : change.gone) change.area.subtract_piece(edge.from, edge.to);
+  for (const BorderEdge& edge : change.come) change.area.add_piece(edge.from, edge.to);
+  result.area += change.area;
+}
+
+}  // namespace loft::overlay
