@@ -2,6 +2,7 @@
 #include "overlay/ring_contacts.h"
 
 #include <algorithm>
+#include <numeric>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -38,7 +39,18 @@ std::optional<Meeting> meeting_in_line(const RingEdge& e, const RingEdge& f) {
   return Meeting{low < high ? ContactKind::stretch : ContactKind::touch, low};
 }
 
+/// Of edges that begin or end in one point.
+Meeting meeting_from(Point shared, Point e_other, Point f_other, const RingEdge& e,
+                     const RingEdge& f) {
+  if (cdt::orient(shared, e_other, f_other) == 0) return *meeting_in_line(e, f);
+  return {ContactKind::touch, shared};
+}
+
 std::optional<Meeting> meeting(const RingEdge& e, const RingEdge& f) {
+  if (e.from == f.from) return meeting_from(e.from, e.to, f.to, e, f);
+  if (e.from == f.to) return meeting_from(e.from, e.to, f.from, e, f);
+  if (e.to == f.from) return meeting_from(e.to, e.from, f.to, e, f);
+  if (e.to == f.to) return meeting_from(e.to, e.from, f.from, e, f);
   const int f_from = cdt::orient(e.from, e.to, f.from);
   const int f_to = cdt::orient(e.from, e.to, f.to);
   if (f_from * f_to > 0) return std::nullopt;
@@ -54,8 +66,15 @@ std::optional<Meeting> meeting(const RingEdge& e, const RingEdge& f) {
   return Meeting{ContactKind::crossing, cdt::intersection(e.from, e.to, f.from, f.to)};
 }
 
-/// Whether a box is all on one side of an edge's line.
+bool is_in(Point p, const cdt::Box& box) {
+  return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
+}
+
+/// Whether a box, of which some is in the edge's own, is all on one side of the edge. Most are
+/// decided without exact arithmetic, which corners of the box on the edge's line would need.
 bool is_beside(const RingEdge& e, const cdt::Box& box) {
+  if (e.from.x == e.to.x || e.from.y == e.to.y) return false;
+  if (is_in(e.from, box) || is_in(e.to, box)) return false;
   const bool rises = (e.from.x < e.to.x) == (e.from.y < e.to.y);
   const Point left{box.low.x, rises ? box.high.y : box.low.y};
   const Point right{box.high.x, rises ? box.low.y : box.high.y};
@@ -103,6 +122,7 @@ class ContactFinder {
   ContactFinder(const RingEdges& edges, const EdgeTree& tree) : edges_(&edges), tree_(&tree) {}
 
   std::vector<RingContact> contacts() {
+    visit_shared_corners();
     for (std::uint32_t e = 0; e < edges_->all().size(); ++e) meet_others(e);
     std::ranges::sort(visits_, {}, &Visit::rank);
     const auto again = std::ranges::unique(visits_, {}, &Visit::rank);
@@ -115,6 +135,19 @@ class ContactFinder {
   }
 
  private:
+  void visit_shared_corners() {
+    const auto corner = [&](std::uint32_t e) { return (*edges_)[e].from; };
+    std::vector<std::uint32_t> sorted(edges_->all().size());
+    std::iota(sorted.begin(), sorted.end(), 0U);
+    std::ranges::sort(sorted, {}, corner);
+    for (std::size_t i = 0; i < sorted.size(); ++i) {
+      const Point place = corner(sorted[i]);
+      if ((i > 0 && corner(sorted[i - 1]) == place) ||
+          (i + 1 < sorted.size() && corner(sorted[i + 1]) == place))
+        visits_.push_back(visit_at(*edges_, sorted[i], place));
+    }
+  }
+
   /// An edge with those of larger numbers.
   void meet_others(std::uint32_t e) {
     const RingEdge& edge = (*edges_)[e];
@@ -130,9 +163,13 @@ class ContactFinder {
     const auto met = meeting((*edges_)[e], (*edges_)[f]);
     if (!met) return;
     if (met->kind != ContactKind::touch) return add(met->kind, met->place, e, f);
-    if (edges_->next(e) == f || edges_->next(f) == e) return;
+    if (ends_at(e, met->place) && ends_at(f, met->place)) return;
     visits_.push_back(visit_at(*edges_, e, met->place));
     visits_.push_back(visit_at(*edges_, f, met->place));
+  }
+
+  [[nodiscard]] bool ends_at(std::uint32_t e, Point place) const {
+    return (*edges_)[e].from == place || (*edges_)[e].to == place;
   }
 
   void add(ContactKind kind, Point place, std::uint32_t e, std::uint32_t f) {

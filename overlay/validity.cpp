@@ -251,12 +251,13 @@ class ValidityCheck {
         tell_place(InvalidityKind::hole_in_hole, hole, other);
   }
 
+  /// In `around`, an outer ring comes before the holes of its polygon.
   void check_place_of_outer(std::uint32_t outer, std::span<const std::uint32_t> around) {
-    for (const std::uint32_t other : around) {
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const std::uint32_t other = around[i];
       if (rings_.is_hole(other) || is_tangled(outer, other)) continue;
-      const bool is_in_hole = std::ranges::any_of(around, [&](std::uint32_t ring) {
-        return rings_.is_hole(ring) && rings_.are_of_one_polygon(ring, other);
-      });
+      const bool is_in_hole =
+          i + 1 < around.size() && rings_.are_of_one_polygon(other, around[i + 1]);
       if (!is_in_hole) tell_place(InvalidityKind::polygon_in_polygon, outer, other);
     }
   }

@@ -59,7 +59,8 @@ std::ostream& operator<<(std::ostream& out, const Invalidity& problem);
 /// that cross are in one another, whether a polygon of such rings is connected) is not.
 ///
 /// Cost: O(n log n) for n points, plus the pairs of edges whose boxes meet, plus for each ring the
-/// edges below one of its points. A hundred thousand points take about a tenth of a second.
+/// edges below one of its points: a fraction of a second for the union of 10,000 discs, as much as
+/// GEOS takes; more where many edges end in one point, or lie slanted side by side.
 [[nodiscard]] std::vector<Invalidity> validity_problems(const MultiPolygon& polygons);
 
 /// Whether there are none.
