@@ -125,8 +125,8 @@ class ContactFinder {
     visit_shared_corners();
     for (std::uint32_t e = 0; e < edges_->all().size(); ++e) meet_others(e);
     std::ranges::sort(visits_, {}, &Visit::rank);
-    const auto again = std::ranges::unique(visits_, {}, &Visit::rank);
-    visits_.erase(again.begin(), again.end());
+    const auto is_same = [](const Visit& a, const Visit& b) { return a.rank() == b.rank(); };
+    visits_.erase(std::unique(visits_.begin(), visits_.end(), is_same), visits_.end());
     for (std::size_t i = 0, next = 0; i < visits_.size(); i = next) {
       while (next < visits_.size() && visits_[next].place == visits_[i].place) ++next;
       meet_at_place(std::span(visits_).subspan(i, next - i));

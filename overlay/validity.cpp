@@ -153,8 +153,7 @@ class ValidityCheck {
     }
     Ring different = result;
     std::ranges::sort(different);
-    const auto again = std::ranges::unique(different);
-    if (again.begin() - different.begin() >= 3) return result;
+    if (std::unique(different.begin(), different.end()) - different.begin() >= 3) return result;
     tell(InvalidityKind::too_few_points, name, ring.empty() ? Point() : ring.front());
     return {};
   }

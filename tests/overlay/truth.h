@@ -148,9 +148,8 @@ class TrueArrangement {
   void make_columns() {
     std::vector<Place> lines = places_;
     std::ranges::sort(lines, [](const Place& a, const Place& b) { return a.x < b.x; });
-    const auto again =
-        std::ranges::unique(lines, [](const Place& a, const Place& b) { return a.x == b.x; });
-    lines.erase(again.begin(), again.end());
+    const auto is_same = [](const Place& a, const Place& b) { return a.x == b.x; };
+    lines.erase(std::unique(lines.begin(), lines.end(), is_same), lines.end());
     add_column({}, {});
     for (std::size_t i = 0; i + 1 < lines.size(); ++i)
       add_column(strands(lines[i], lines[i + 1]), lines[i + 1].x - lines[i].x);
