@@ -66,7 +66,7 @@ std::optional<Meeting> meeting(const RingEdge& e, const RingEdge& f) {
   return Meeting{ContactKind::crossing, cdt::intersection(e.from, e.to, f.from, f.to)};
 }
 
-bool is_in(Point p, const cdt::Box& box) {
+bool is_within(Point p, const cdt::Box& box) {
   return box.low.x <= p.x && p.x <= box.high.x && box.low.y <= p.y && p.y <= box.high.y;
 }
 
@@ -74,7 +74,7 @@ bool is_in(Point p, const cdt::Box& box) {
 /// decided without exact arithmetic, which corners of the box on the edge's line would need.
 bool is_beside(const RingEdge& e, const cdt::Box& box) {
   if (e.from.x == e.to.x || e.from.y == e.to.y) return false;
-  if (is_in(e.from, box) || is_in(e.to, box)) return false;
+  if (is_within(e.from, box) || is_within(e.to, box)) return false;
   const bool rises = (e.from.x < e.to.x) == (e.from.y < e.to.y);
   const Point left{box.low.x, rises ? box.high.y : box.low.y};
   const Point right{box.high.x, rises ? box.low.y : box.high.y};

@@ -118,12 +118,12 @@ SmallCase small_case(SmallCase::Kind kind, std::uint64_t seed) {
 }
 
 /// An operation, on layers and on what windings say.
-struct Operation {
+struct PairOperation {
   Expression what;
   bool (*is_true)(bool, bool);
 };
 
-std::vector<Operation> operations() {
+std::vector<PairOperation> operations() {
   const Expression a = LayerId(0);
   const Expression b = LayerId(1);
   return {{a | b, [](bool in_a, bool in_b) { return in_a || in_b; }},
@@ -134,7 +134,7 @@ std::vector<Operation> operations() {
 
 template <class Number>
 TrueResult<Number> true_result(const TrueArrangement<Number>& truth, FillRule rule,
-                               const Operation& operation) {
+                               const PairOperation& operation) {
   return truth.result([&](const std::array<int, 2>& turns) {
     return operation.is_true(is_inside(rule, turns[0]), is_inside(rule, turns[1]));
   });
@@ -186,7 +186,7 @@ class TruthCheck {
     if (is_exact_) {
       ASSERT_EQ(bound_, 0);
     }
-    for (const Operation& operation : operations()) {
+    for (const PairOperation& operation : operations()) {
       const ResultId result = overlay_.watch(operation.what);
       const TrueResult<Number> wanted = true_result(truth_, rule_, operation);
       ASSERT_NO_FATAL_FAILURE(expect_area(result, wanted.twice_area));
@@ -285,7 +285,7 @@ void expect_as_rational(SmallCase::Kind kind, int shift) {
     const TrueArrangement<Rational> rational(small.layers, shift);
     ASSERT_EQ(fixed.is_representable(), rational.is_representable());
     ASSERT_EQ(fixed.is_clear_by(clear_distance), rational.is_clear_by(clear_distance));
-    for (const Operation& operation : operations()) {
+    for (const PairOperation& operation : operations()) {
       const auto one = true_result(fixed, small.rule, operation);
       const auto other = true_result(rational, small.rule, operation);
       ASSERT_EQ(one.holes, other.holes);

@@ -23,10 +23,10 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 using ::testing::UnorderedElementsAre;
-using Kind = Invalidity::Kind;
+using Problem = Invalidity::Kind;
 using cdt::Point;
 
-Ring box(double x, double y, double width, double height) {
+Ring block(double x, double y, double width, double height) {
   return {{x, y}, {x + width, y}, {x + width, y + height}, {x, y + height}};
 }
 Ring reversed(Ring ring) {
@@ -34,21 +34,21 @@ Ring reversed(Ring ring) {
   return ring;
 }
 Ring hole(double x, double y, double width, double height) {
-  return reversed(box(x, y, width, height));
+  return reversed(block(x, y, width, height));
 }
 
 MultiPolygon one(Ring outer, std::vector<Ring> holes = {}) {
   return {{std::move(outer), std::move(holes)}};
 }
 
-std::vector<Kind> kinds(const MultiPolygon& polygons) {
-  std::vector<Kind> result;
+std::vector<Problem> kinds(const MultiPolygon& polygons) {
+  std::vector<Problem> result;
   for (const Invalidity& problem : validity_problems(polygons)) result.push_back(problem.kind);
   return result;
 }
 
-Invalidity alone(Kind kind, Point place) { return {kind, {0, 0}, place, std::nullopt}; }
-Invalidity with_other(Kind kind, RingOf ring, Point place, RingOf other) {
+Invalidity alone(Problem kind, Point place) { return {kind, {0, 0}, place, std::nullopt}; }
+Invalidity with_other(Problem kind, RingOf ring, Point place, RingOf other) {
   return {kind, ring, place, other};
 }
 
@@ -66,7 +66,7 @@ void expect_only(const MultiPolygon& polygons, const Invalidity& wanted) {
 TEST(Valid, NothingAndSimplePolygons) {
   expect_valid({});
   expect_valid(one({{0, 0}, {1, 0}, {0, 1}}));
-  expect_valid(one(box(0, 0, 9, 9), {hole(1, 1, 2, 2), hole(4, 4, 2, 2)}));
+  expect_valid(one(block(0, 0, 9, 9), {hole(1, 1, 2, 2), hole(4, 4, 2, 2)}));
 }
 
 TEST(Valid, PointsOnStraightPiecesAreNoProblem) {
@@ -74,49 +74,49 @@ TEST(Valid, PointsOnStraightPiecesAreNoProblem) {
 }
 
 TEST(Valid, AHoleMayTouchTheOuterRingInAPoint) {
-  expect_valid(one(box(0, 0, 4, 4), {{{0, 2}, {2, 3}, {2, 1}}}));  // on an edge
-  expect_valid(one(box(0, 0, 4, 4), {{{0, 0}, {1, 2}, {2, 1}}}));  // in a corner
-  expect_valid(one({{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}},       // a corner in its edge
+  expect_valid(one(block(0, 0, 4, 4), {{{0, 2}, {2, 3}, {2, 1}}}));  // on an edge
+  expect_valid(one(block(0, 0, 4, 4), {{{0, 0}, {1, 2}, {2, 1}}}));  // in a corner
+  expect_valid(one({{0, 0}, {4, 0}, {2, 2}, {4, 4}, {0, 4}},         // a corner in its edge
                    {{{2, 1}, {1, 2}, {2, 3}}}));
 }
 
 TEST(Valid, ManyHolesMayTouchInOnePoint) {
-  expect_valid(one(box(-4, -4, 8, 8), {{{0, 0}, {1, 2}, {2, 1}},
-                                       {{0, 0}, {2, -1}, {1, -2}},
-                                       {{0, 0}, {-1, -2}, {-2, -1}},
-                                       {{0, 0}, {-2, 1}, {-1, 2}}}));
+  expect_valid(one(block(-4, -4, 8, 8), {{{0, 0}, {1, 2}, {2, 1}},
+                                         {{0, 0}, {2, -1}, {1, -2}},
+                                         {{0, 0}, {-1, -2}, {-2, -1}},
+                                         {{0, 0}, {-2, 1}, {-1, 2}}}));
 }
 
 TEST(Valid, AChainOfHolesThatEndsInside) {
-  expect_valid(one(box(0, 0, 8, 4),
+  expect_valid(one(block(0, 0, 8, 4),
                    {{{0, 2}, {2, 3}, {2, 1}}, {{2, 3}, {4, 3}, {4, 2}}, {{4, 3}, {6, 3}, {6, 2}}}));
 }
 
 TEST(Valid, PolygonsMayTouchInPoints) {
-  expect_valid({{box(0, 0, 2, 2), {}}, {box(2, 2, 2, 2), {}}});
-  expect_valid({{box(0, 0, 2, 2), {}}, {{{2, 1}, {3, 0}, {3, 2}}, {}}});
+  expect_valid({{block(0, 0, 2, 2), {}}, {block(2, 2, 2, 2), {}}});
+  expect_valid({{block(0, 0, 2, 2), {}}, {{{2, 1}, {3, 0}, {3, 2}}, {}}});
   // Two of them, in two points: what is between is outside of both.
   expect_valid({{{{0, 0}, {4, 0}, {2, 1}}, {}}, {{{0, 0}, {2, 2}, {4, 0}, {2, 4}}, {}}});
 }
 
 TEST(Valid, APolygonInTheHoleOfAnother) {
-  const Polygon frame{box(0, 0, 9, 9), {hole(1, 1, 7, 7)}};
-  expect_valid({frame, {box(2, 2, 5, 5), {hole(3, 3, 3, 3)}}, {box(4, 4, 1, 1), {}}});
+  const Polygon frame{block(0, 0, 9, 9), {hole(1, 1, 7, 7)}};
+  expect_valid({frame, {block(2, 2, 5, 5), {hole(3, 3, 3, 3)}}, {block(4, 4, 1, 1), {}}});
   // All of its corners on the hole.
   expect_valid({frame, {{{4, 1}, {8, 4}, {4, 8}, {1, 4}}, {}}});
 }
 
 TEST(Valid, HoweverNear) {
   const double next = std::nextafter(1.0, 2.0);
-  expect_valid({{box(0, 0, 1, 1), {}}, {{{next, 0}, {2, 0}, {2, 1}, {next, 1}}, {}}});
-  expect_only({{box(0, 0, 1, 1), {}}, {{{1, 0.25}, {2, 0}, {2, 1}, {1, 0.75}}, {}}},
-              with_other(Kind::runs_along_other, {0, 0}, {1, 0.25}, {1, 0}));
+  expect_valid({{block(0, 0, 1, 1), {}}, {{{next, 0}, {2, 0}, {2, 1}, {next, 1}}, {}}});
+  expect_only({{block(0, 0, 1, 1), {}}, {{{1, 0.25}, {2, 0}, {2, 1}, {1, 0.75}}, {}}},
+              with_other(Problem::runs_along_other, {0, 0}, {1, 0.25}, {1, 0}));
   // 0.1 + 0.2 is above 0.3, so this corner is inside the edge from (0, 0) or beyond it.
   const Ring slanted{{0, 0}, {10, 3}, {10, 4}};
   const double y = 0.1 * 3;  // 0.30000000000000004
   expect_valid({{slanted, {}}, {{{1, std::nextafter(0.3, 0)}, {1, -1}, {2, -1}}, {}}});
   EXPECT_THAT(kinds({{slanted, {}}, {{{1, y}, {1, -1}, {2, -1}}, {}}}),
-              ElementsAre(Kind::crosses_other, Kind::crosses_other));
+              ElementsAre(Problem::crosses_other, Problem::crosses_other));
 }
 
 // What is wrong with one ring.
@@ -125,169 +125,175 @@ TEST(Invalid, UnusablePoints) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const auto problems = validity_problems(one({{0, 0}, {1, nan}, {1e80, 1}, {0, 1}}));
   ASSERT_THAT(problems, SizeIs(2));
-  for (const Invalidity& problem : problems) EXPECT_EQ(problem.kind, Kind::unusable_point);
+  for (const Invalidity& problem : problems) EXPECT_EQ(problem.kind, Problem::unusable_point);
 }
 
 TEST(Invalid, TooFewPoints) {
-  expect_only(one({}), alone(Kind::too_few_points, {0, 0}));
-  expect_only(one({{1, 2}}), alone(Kind::too_few_points, {1, 2}));
-  expect_only(one({{1, 2}, {3, 4}}), alone(Kind::too_few_points, {1, 2}));
+  expect_only(one({}), alone(Problem::too_few_points, {0, 0}));
+  expect_only(one({{1, 2}}), alone(Problem::too_few_points, {1, 2}));
+  expect_only(one({{1, 2}, {3, 4}}), alone(Problem::too_few_points, {1, 2}));
   EXPECT_THAT(kinds(one({{1, 2}, {3, 4}, {3, 4}})),
-              ElementsAre(Kind::too_few_points, Kind::repeated_point));
-  EXPECT_THAT(kinds(one({{1, 2}, {3, 4}, {1, 2}, {3, 4}})), ElementsAre(Kind::too_few_points));
-  EXPECT_THAT(kinds(one(box(0, 0, 3, 3), {{{1, 1}, {2, 2}}})), ElementsAre(Kind::too_few_points));
+              ElementsAre(Problem::too_few_points, Problem::repeated_point));
+  EXPECT_THAT(kinds(one({{1, 2}, {3, 4}, {1, 2}, {3, 4}})), ElementsAre(Problem::too_few_points));
+  EXPECT_THAT(kinds(one(block(0, 0, 3, 3), {{{1, 1}, {2, 2}}})),
+              ElementsAre(Problem::too_few_points));
 }
 
 TEST(Invalid, RepeatedPoints) {
-  expect_only(one({{0, 0}, {1, 0}, {1, 0}, {0, 1}}), alone(Kind::repeated_point, {1, 0}));
-  expect_only(one({{0, 0}, {1, 0}, {0, 1}, {0, 0}}), alone(Kind::repeated_point, {0, 0}));
+  expect_only(one({{0, 0}, {1, 0}, {1, 0}, {0, 1}}), alone(Problem::repeated_point, {1, 0}));
+  expect_only(one({{0, 0}, {1, 0}, {0, 1}, {0, 0}}), alone(Problem::repeated_point, {0, 0}));
 }
 
 TEST(Invalid, RingsThatCrossThemselves) {
-  expect_only(one({{0, 0}, {2, 2}, {2, 0}, {0, 2}}), alone(Kind::crosses_itself, {1, 1}));
+  expect_only(one({{0, 0}, {2, 2}, {2, 0}, {0, 2}}), alone(Problem::crosses_itself, {1, 1}));
   // In a corner of both ways, and in a corner of one.
   expect_only(one({{0, 0}, {1, 1}, {2, 2}, {2, 0}, {1, 1}, {0, 2}}),
-              alone(Kind::crosses_itself, {1, 1}));
-  expect_only(one({{0, 0}, {1, 1}, {2, 2}, {2, 0}, {0, 2}}), alone(Kind::crosses_itself, {1, 1}));
+              alone(Problem::crosses_itself, {1, 1}));
+  expect_only(one({{0, 0}, {1, 1}, {2, 2}, {2, 0}, {0, 2}}),
+              alone(Problem::crosses_itself, {1, 1}));
   EXPECT_THAT(kinds(one({{0, 5}, {10, 5}, {2, 0}, {5, 9}, {8, 0}})),  // five of a pentagram
-              ElementsAre(Kind::crosses_itself, Kind::crosses_itself, Kind::crosses_itself,
-                          Kind::crosses_itself, Kind::crosses_itself));
+              ElementsAre(Problem::crosses_itself, Problem::crosses_itself, Problem::crosses_itself,
+                          Problem::crosses_itself, Problem::crosses_itself));
 }
 
 TEST(Invalid, RingsThatTouchThemselves) {
   // CGAL/cgal#3697, from outside; then from inside; then with a corner on an edge.
   expect_only(one({{2, 1}, {3, 0}, {5, 4}, {2, 1}, {1, 3}, {0, 2}}),
-              alone(Kind::touches_itself, {2, 1}));
+              alone(Problem::touches_itself, {2, 1}));
   expect_only(one({{0, 0}, {4, 0}, {4, 4}, {0, 4}, {0, 0}, {1, 2}, {2, 1}}),
-              alone(Kind::touches_itself, {0, 0}));
-  expect_only(one({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}), alone(Kind::touches_itself, {2, 0}));
+              alone(Problem::touches_itself, {0, 0}));
+  expect_only(one({{0, 0}, {4, 0}, {4, 4}, {2, 0}, {0, 4}}),
+              alone(Problem::touches_itself, {2, 0}));
 }
 
 TEST(Invalid, RingsThatRunAlongThemselves) {
   expect_only(one({{0, 0}, {3, 0}, {5, 0}, {3, 0}, {3, 3}, {0, 3}}),
-              alone(Kind::runs_along_itself, {3, 0}));
+              alone(Problem::runs_along_itself, {3, 0}));
   // A slit.
   EXPECT_THAT(kinds(one({{0, 0}, {4, 0}, {4, 4}, {2, 4}, {2, 2}, {2, 4}, {0, 4}})),
-              ElementsAre(Kind::runs_along_itself));
+              ElementsAre(Problem::runs_along_itself));
   EXPECT_THAT(kinds(one({{0, 0}, {1, 1}, {3, 3}})),
-              ElementsAre(Kind::runs_along_itself, Kind::runs_along_itself));
+              ElementsAre(Problem::runs_along_itself, Problem::runs_along_itself));
   // Twice around.
-  EXPECT_THAT(
-      kinds(one({{0, 0}, {1, 0}, {0, 1}, {0, 0}, {1, 0}, {0, 1}})),
-      ElementsAre(Kind::runs_along_itself, Kind::runs_along_itself, Kind::runs_along_itself));
+  EXPECT_THAT(kinds(one({{0, 0}, {1, 0}, {0, 1}, {0, 0}, {1, 0}, {0, 1}})),
+              ElementsAre(Problem::runs_along_itself, Problem::runs_along_itself,
+                          Problem::runs_along_itself));
 }
 
 TEST(Invalid, WrongOrientation) {
-  expect_only(one(hole(0, 0, 2, 2)), alone(Kind::wrong_orientation, {0, 0}));
-  EXPECT_THAT(validity_problems(one(box(0, 0, 9, 9), {box(1, 2, 3, 3)})),
-              ElementsAre(Invalidity{Kind::wrong_orientation, {0, 1}, {1, 2}, std::nullopt}));
+  expect_only(one(hole(0, 0, 2, 2)), alone(Problem::wrong_orientation, {0, 0}));
+  EXPECT_THAT(validity_problems(one(block(0, 0, 9, 9), {block(1, 2, 3, 3)})),
+              ElementsAre(Invalidity{Problem::wrong_orientation, {0, 1}, {1, 2}, std::nullopt}));
 }
 
 // What is wrong between two rings.
 
 TEST(Invalid, RingsThatCross) {
-  EXPECT_THAT(validity_problems({{box(0, 0, 2, 2), {}}, {box(1, 1, 2, 2), {}}}),
-              UnorderedElementsAre(with_other(Kind::crosses_other, {0, 0}, {2, 1}, {1, 0}),
-                                   with_other(Kind::crosses_other, {0, 0}, {1, 2}, {1, 0})));
-  EXPECT_THAT(kinds(one(box(0, 0, 4, 4), {hole(2, 2, 4, 1)})),
-              ElementsAre(Kind::crosses_other, Kind::crosses_other));
-  EXPECT_THAT(kinds(one(box(0, 0, 9, 9), {hole(1, 1, 3, 3), hole(2, 2, 4, 1)})),
-              ElementsAre(Kind::crosses_other, Kind::crosses_other));
+  EXPECT_THAT(validity_problems({{block(0, 0, 2, 2), {}}, {block(1, 1, 2, 2), {}}}),
+              UnorderedElementsAre(with_other(Problem::crosses_other, {0, 0}, {2, 1}, {1, 0}),
+                                   with_other(Problem::crosses_other, {0, 0}, {1, 2}, {1, 0})));
+  EXPECT_THAT(kinds(one(block(0, 0, 4, 4), {hole(2, 2, 4, 1)})),
+              ElementsAre(Problem::crosses_other, Problem::crosses_other));
+  EXPECT_THAT(kinds(one(block(0, 0, 9, 9), {hole(1, 1, 3, 3), hole(2, 2, 4, 1)})),
+              ElementsAre(Problem::crosses_other, Problem::crosses_other));
 }
 
 TEST(Invalid, RingsThatCrossInCorners) {
-  const Polygon square{box(0, 0, 2, 2), {}};
+  const Polygon outline{block(0, 0, 2, 2), {}};
   const auto crossings = [](Point first, Point second) {
-    return ElementsAre(with_other(Kind::crosses_other, {0, 0}, first, {1, 0}),
-                       with_other(Kind::crosses_other, {0, 0}, second, {1, 0}));
+    return ElementsAre(with_other(Problem::crosses_other, {0, 0}, first, {1, 0}),
+                       with_other(Problem::crosses_other, {0, 0}, second, {1, 0}));
   };
   // An edge through a corner; a corner in a corner; a corner on an edge.
-  EXPECT_THAT(validity_problems({square, {{{3, 1}, {3, 3}, {1, 1}}, {}}}),
+  EXPECT_THAT(validity_problems({outline, {{{3, 1}, {3, 3}, {1, 1}}, {}}}),
               crossings({2, 1}, {2, 2}));
-  EXPECT_THAT(validity_problems({square, {{{3, 1}, {3, 3}, {2, 2}, {1, 1}}, {}}}),
+  EXPECT_THAT(validity_problems({outline, {{{3, 1}, {3, 3}, {2, 2}, {1, 1}}, {}}}),
               crossings({2, 1}, {2, 2}));
-  EXPECT_THAT(validity_problems({square, {{{3, 2}, {2, 1.5}, {1, 1}, {3, 0.5}}, {}}}),
+  EXPECT_THAT(validity_problems({outline, {{{3, 2}, {2, 1.5}, {1, 1}, {3, 0.5}}, {}}}),
               crossings({2, 0.75}, {2, 1.5}));
 }
 
 TEST(Invalid, RingsThatRunAlongOneAnother) {
-  expect_only({{box(0, 0, 2, 2), {}}, {box(2, 1, 2, 2), {}}},
-              with_other(Kind::runs_along_other, {0, 0}, {2, 1}, {1, 0}));
-  EXPECT_THAT(kinds(one(box(0, 0, 4, 4), {hole(0, 1, 2, 2)})), ElementsAre(Kind::runs_along_other));
-  EXPECT_THAT(kinds(one(box(0, 0, 9, 9), {hole(1, 1, 2, 2), hole(3, 1, 2, 2)})),
-              ElementsAre(Kind::runs_along_other));
+  expect_only({{block(0, 0, 2, 2), {}}, {block(2, 1, 2, 2), {}}},
+              with_other(Problem::runs_along_other, {0, 0}, {2, 1}, {1, 0}));
+  EXPECT_THAT(kinds(one(block(0, 0, 4, 4), {hole(0, 1, 2, 2)})),
+              ElementsAre(Problem::runs_along_other));
+  EXPECT_THAT(kinds(one(block(0, 0, 9, 9), {hole(1, 1, 2, 2), hole(3, 1, 2, 2)})),
+              ElementsAre(Problem::runs_along_other));
   // The same polygon twice.
-  EXPECT_THAT(kinds({{box(0, 0, 2, 2), {}}, {box(0, 0, 2, 2), {}}}),
-              ::testing::Each(Kind::runs_along_other));
+  EXPECT_THAT(kinds({{block(0, 0, 2, 2), {}}, {block(0, 0, 2, 2), {}}}),
+              ::testing::Each(Problem::runs_along_other));
 }
 
 TEST(Invalid, HolesOutside) {
-  EXPECT_THAT(validity_problems(one(box(0, 0, 2, 2), {hole(5, 5, 1, 1)})),
-              ElementsAre(with_other(Kind::hole_outside, {0, 1}, {5, 6}, {0, 0})));
+  EXPECT_THAT(validity_problems(one(block(0, 0, 2, 2), {hole(5, 5, 1, 1)})),
+              ElementsAre(with_other(Problem::hole_outside, {0, 1}, {5, 6}, {0, 0})));
   // Around the outer ring, and touching it from outside in two points.
-  EXPECT_THAT(kinds(one(box(1, 1, 2, 2), {hole(0, 0, 4, 4)})), ElementsAre(Kind::hole_outside));
+  EXPECT_THAT(kinds(one(block(1, 1, 2, 2), {hole(0, 0, 4, 4)})),
+              ElementsAre(Problem::hole_outside));
   EXPECT_THAT(kinds(one({{0, 0}, {4, 0}, {2, 1}}, {reversed({{0, 0}, {2, 2}, {4, 0}, {2, 4}})})),
-              ElementsAre(Kind::hole_outside));
+              ElementsAre(Problem::hole_outside));
 }
 
 TEST(Invalid, HolesInHoles) {
-  EXPECT_THAT(validity_problems(one(box(0, 0, 9, 9), {hole(1, 1, 7, 7), hole(2, 2, 2, 2)})),
-              ElementsAre(with_other(Kind::hole_in_hole, {0, 2}, {2, 4}, {0, 1})));
+  EXPECT_THAT(validity_problems(one(block(0, 0, 9, 9), {hole(1, 1, 7, 7), hole(2, 2, 2, 2)})),
+              ElementsAre(with_other(Problem::hole_in_hole, {0, 2}, {2, 4}, {0, 1})));
   // All of its corners on the other.
-  EXPECT_THAT(kinds(one(box(-9, -9, 18, 18),
+  EXPECT_THAT(kinds(one(block(-9, -9, 18, 18),
                         {hole(-2, -2, 4, 4), reversed({{2, 0}, {0, 2}, {-2, 0}, {0, -2}})})),
-              ElementsAre(Kind::hole_in_hole));
+              ElementsAre(Problem::hole_in_hole));
 }
 
 TEST(Invalid, PolygonsInPolygons) {
-  expect_only({{box(0, 0, 9, 9), {}}, {box(1, 1, 2, 2), {}}},
-              with_other(Kind::polygon_in_polygon, {1, 0}, {1, 1}, {0, 0}));
+  expect_only({{block(0, 0, 9, 9), {}}, {block(1, 1, 2, 2), {}}},
+              with_other(Problem::polygon_in_polygon, {1, 0}, {1, 1}, {0, 0}));
   // Around a hole of the other.
-  EXPECT_THAT(kinds({{box(0, 0, 9, 9), {hole(3, 3, 2, 2)}}, {box(2, 2, 4, 4), {}}}),
-              ElementsAre(Kind::polygon_in_polygon));
-  EXPECT_THAT(kinds({{box(0, 0, 4, 4), {}}, {{{4, 2}, {2, 4}, {0, 2}, {2, 0}}, {}}}),
-              ElementsAre(Kind::polygon_in_polygon));
+  EXPECT_THAT(kinds({{block(0, 0, 9, 9), {hole(3, 3, 2, 2)}}, {block(2, 2, 4, 4), {}}}),
+              ElementsAre(Problem::polygon_in_polygon));
+  EXPECT_THAT(kinds({{block(0, 0, 4, 4), {}}, {{{4, 2}, {2, 4}, {0, 2}, {2, 0}}, {}}}),
+              ElementsAre(Problem::polygon_in_polygon));
 }
 
 // What is wrong with a polygon whose rings are as they should be.
 
 TEST(Invalid, AHoleThatCutsThePolygon) {
-  EXPECT_THAT(validity_problems(one(box(0, 0, 4, 4), {{{0, 2}, {2, 3}, {4, 2}, {2, 1}}})),
-              ElementsAre(with_other(Kind::inside_cut, {0, 0}, {4, 2}, {0, 1})));
+  EXPECT_THAT(validity_problems(one(block(0, 0, 4, 4), {{{0, 2}, {2, 3}, {4, 2}, {2, 1}}})),
+              ElementsAre(with_other(Problem::inside_cut, {0, 0}, {4, 2}, {0, 1})));
   // Three corners on the outer ring.
-  EXPECT_THAT(kinds(one(box(0, 0, 4, 4), {{{0, 0}, {2, 4}, {4, 2}}})),
-              ElementsAre(Kind::inside_cut, Kind::inside_cut));
+  EXPECT_THAT(kinds(one(block(0, 0, 4, 4), {{{0, 0}, {2, 4}, {4, 2}}})),
+              ElementsAre(Problem::inside_cut, Problem::inside_cut));
 }
 
 TEST(Invalid, HolesThatCutThePolygonTogether) {
-  EXPECT_THAT(kinds(one(box(0, 0, 6, 6), {{{0, 3}, {3, 4}, {3, 2}}, {{3, 2}, {4, 4}, {6, 3}}})),
-              ElementsAre(Kind::inside_cut));
+  EXPECT_THAT(kinds(one(block(0, 0, 6, 6), {{{0, 3}, {3, 4}, {3, 2}}, {{3, 2}, {4, 4}, {6, 3}}})),
+              ElementsAre(Problem::inside_cut));
   // Three in a circle around a piece of the inside.
-  EXPECT_THAT(kinds(one(box(-9, -9, 18, 18), {{{0, 0}, {2, -1}, {4, 0}, {2, -3}},
-                                              {{4, 0}, {3, 2}, {2, 4}, {5, 3}},
-                                              {{2, 4}, {1, 2}, {0, 0}, {-1, 3}}})),
-              ElementsAre(Kind::inside_cut));
+  EXPECT_THAT(kinds(one(block(-9, -9, 18, 18), {{{0, 0}, {2, -1}, {4, 0}, {2, -3}},
+                                                {{4, 0}, {3, 2}, {2, 4}, {5, 3}},
+                                                {{2, 4}, {1, 2}, {0, 0}, {-1, 3}}})),
+              ElementsAre(Problem::inside_cut));
   // Two that touch in two points.
-  EXPECT_THAT(kinds(one(box(-9, -9, 18, 18), {reversed({{0, 0}, {4, 0}, {2, 1}}),
-                                              reversed({{0, 0}, {2, 2}, {4, 0}, {2, 4}})})),
-              ElementsAre(Kind::inside_cut));
+  EXPECT_THAT(kinds(one(block(-9, -9, 18, 18), {reversed({{0, 0}, {4, 0}, {2, 1}}),
+                                                reversed({{0, 0}, {2, 2}, {4, 0}, {2, 4}})})),
+              ElementsAre(Problem::inside_cut));
 }
 
 TEST(Invalid, AllOfItIsTold) {
   const MultiPolygon polygons{
-      {box(0, 0, 9, 9), {hole(1, 1, 3, 3), hole(2, 2, 1, 1), hole(20, 0, 1, 1), box(5, 5, 1, 1)}},
+      {block(0, 0, 9, 9),
+       {hole(1, 1, 3, 3), hole(2, 2, 1, 1), hole(20, 0, 1, 1), block(5, 5, 1, 1)}},
       {{{30, 0}, {32, 2}, {32, 0}, {30, 2}}, {}},
-      {box(7, 7, 1, 1), {{{7, 7}, {7, 7}}}}};
-  EXPECT_THAT(kinds(polygons),
-              ElementsAre(Kind::hole_in_hole, Kind::hole_outside, Kind::wrong_orientation,
-                          Kind::crosses_itself, Kind::polygon_in_polygon, Kind::too_few_points,
-                          Kind::repeated_point, Kind::repeated_point));
+      {block(7, 7, 1, 1), {{{7, 7}, {7, 7}}}}};
+  EXPECT_THAT(kinds(polygons), ElementsAre(Problem::hole_in_hole, Problem::hole_outside,
+                                           Problem::wrong_orientation, Problem::crosses_itself,
+                                           Problem::polygon_in_polygon, Problem::too_few_points,
+                                           Problem::repeated_point, Problem::repeated_point));
 }
 
 TEST(Invalid, ProblemsAreSaidInWords) {
-  EXPECT_EQ(::testing::PrintToString(with_other(Kind::hole_outside, {3, 1}, {5, 6}, {3, 0})),
+  EXPECT_EQ(::testing::PrintToString(with_other(Problem::hole_outside, {3, 1}, {5, 6}, {3, 0})),
             "polygon 3 ring 1 is a hole outside of polygon 3 ring 0 at (5, 6)");
-  EXPECT_EQ(::testing::PrintToString(alone(Kind::crosses_itself, {1, 1})),
+  EXPECT_EQ(::testing::PrintToString(alone(Problem::crosses_itself, {1, 1})),
             "polygon 0 ring 0 crosses itself at (1, 1)");
 }
 
@@ -348,7 +354,7 @@ TEST(Validity, ManyRings) {
   MultiPolygon many = grid_of_rings(30, 20);
   expect_valid(many);
   std::swap(many[7].holes, many[400].holes);
-  EXPECT_THAT(kinds(many), ElementsAre(Kind::hole_outside, Kind::hole_outside));
+  EXPECT_THAT(kinds(many), ElementsAre(Problem::hole_outside, Problem::hole_outside));
 }
 
 }  // namespace
