@@ -53,10 +53,11 @@ std::ostream& operator<<(std::ostream& out, const Invalidity& problem);
 /// what is inside a polygon is connected; and that of different polygons is disjoint. Beyond OGC,
 /// outer rings must be counter-clockwise, holes clockwise, and no point follows itself.
 ///
-/// Exact: decisions are by cdt::orient on the points as they are. Sorted by ring. Each crossing,
-/// each stretch that two edges share, and each point where a ring touches itself is listed; what
-/// a problem leaves without meaning (the orientation of a ring that crosses itself, whether rings
-/// that cross are in one another, whether a polygon of such rings is connected) is not.
+/// Exact: decisions are by cdt::orient, and orientations by areas without rounding, of the points
+/// as they are. Sorted by ring. Each crossing, each stretch that two edges share, and each point
+/// where a ring touches itself is listed; what a problem leaves without meaning (the orientation of
+/// a ring that crosses itself, whether rings that cross are in one another, whether a polygon of
+/// such rings is connected) is not.
 ///
 /// Cost: O(n log n) for n points, plus the pairs of edges whose boxes meet, plus for each ring the
 /// edges below one of its points: a fraction of a second for the union of 10,000 discs, as much as
