@@ -30,7 +30,8 @@ struct RingEdge {
   return a.low.x <= b.high.x && b.low.x <= a.high.x && a.low.y <= b.high.y && b.low.y <= a.high.y;
 }
 
-/// Edges in a tree of boxes: halved again and again at the middle of the longer side. A view.
+/// Edges in a tree of boxes: halved again and again in the direction in which their middles are
+/// spread further. A view.
 class EdgeTree {
  public:
   /// Cost: O(n log n).
@@ -50,27 +51,32 @@ class EdgeTree {
   using Numbers = std::span<std::uint32_t>;
   static constexpr std::size_t most_in_leaf = 4;
 
+  /// Twice the middle of an edge.
+  [[nodiscard]] cdt::Point middle(std::uint32_t e) const {
+    return {edges_[e].from.x + edges_[e].to.x, edges_[e].from.y + edges_[e].to.y};
+  }
+
   void build(std::size_t node, Numbers numbers) {
     if (boxes_.size() <= node) boxes_.resize(node + 1);
+    cdt::Box middles;
     for (const std::uint32_t e : numbers) {
       boxes_[node].add(edges_[e].from);
       boxes_[node].add(edges_[e].to);
+      middles.add(middle(e));
     }
     if (numbers.size() <= most_in_leaf) return;
     const std::size_t half = numbers.size() / 2;
-    put_smaller_first(numbers, half, boxes_[node]);
+    put_smaller_first(numbers, half, middles);
     build(2 * node + 1, numbers.first(half));
     build(2 * node + 2, numbers.subspan(half));
   }
 
-  void put_smaller_first(Numbers numbers, std::size_t half, const cdt::Box& box) const {
-    const auto middle = numbers.begin() + static_cast<std::ptrdiff_t>(half);
-    if (box.high.x - box.low.x > box.high.y - box.low.y)
-      std::ranges::nth_element(numbers, middle, {},
-                               [&](std::uint32_t e) { return edges_[e].from.x + edges_[e].to.x; });
+  void put_smaller_first(Numbers numbers, std::size_t half, const cdt::Box& middles) const {
+    const auto at = numbers.begin() + static_cast<std::ptrdiff_t>(half);
+    if (middles.high.x - middles.low.x > middles.high.y - middles.low.y)
+      std::ranges::nth_element(numbers, at, {}, [&](std::uint32_t e) { return middle(e).x; });
     else
-      std::ranges::nth_element(numbers, middle, {},
-                               [&](std::uint32_t e) { return edges_[e].from.y + edges_[e].to.y; });
+      std::ranges::nth_element(numbers, at, {}, [&](std::uint32_t e) { return middle(e).y; });
   }
 
   template <class May, class Visit>
