@@ -26,7 +26,7 @@ void Formula::adopt(std::uint32_t parent, std::span<const std::uint32_t> operand
   Node& node = nodes_[parent];
   for (const std::uint32_t operand : operands) {
     nodes_[operand].parent = parent;
-    node.are_true += nodes_[operand].is_true ? 1 : 0;
+    node.are_true += nodes_[operand].is_true ? 1U : 0U;
   }
   node.is_true = is_satisfied(node);
 }

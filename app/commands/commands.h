@@ -78,6 +78,7 @@ struct CoverageCommand {
   std::filesystem::path map;
   std::vector<std::filesystem::path> outputs;
   bool check = false;                   ///< faults are a failure
+  bool borders = false;                 ///< lists what areas share
   std::optional<overlay::Heir> clean;   ///< who gets what several claim, or none
   std::optional<double> gap_width;      ///< wider gaps are no faults
   std::optional<std::string> layer_by;  ///< a property; not given: a layer a feature

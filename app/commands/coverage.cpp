@@ -28,11 +28,11 @@
 
 namespace loft::app {
 
+namespace {
+
 using overlay::CoverageFault;
 using overlay::CoverageFaults;
 using overlay::Overlay;
-
-namespace {
 
 /// A fault as tables and files show it.
 struct ShownFault {
@@ -52,6 +52,36 @@ std::size_t leave_out_seas(CoverageFaults& faults, const std::optional<double>& 
   if (!gap_width) return 0;
   return std::erase_if(faults.gaps,
                        [&](const CoverageFault& gap) { return gap.width >= *gap_width; });
+}
+
+/// What two areas share.
+struct CommonBorder {
+  std::array<overlay::LayerId, 2> layers;
+  double length = 0;
+};
+
+struct CoverageReport {
+  CoverageFaults faults;
+  std::size_t seas = 0;  ///< gaps that are no faults
+  std::vector<CommonBorder> borders;
+  std::map<std::string, double> seconds;
+};
+
+std::vector<CommonBorder> borders_of(const Overlay& overlay) {
+  std::vector<CommonBorder> borders;
+  for (std::size_t i = 0; i < overlay.layer_count(); ++i) {
+    const overlay::LayerId one(static_cast<std::uint32_t>(i));
+    for (const overlay::Neighbour& other : neighbours(overlay, one))
+      if (one < other.layer) borders.push_back({{one, other.layer}, other.length});
+  }
+  return borders;
+}
+
+void print_borders(const Overlay& overlay, std::span<const CommonBorder> borders) {
+  std::vector<std::vector<std::string>> rows{{"border", "length"}};
+  for (const CommonBorder& border : borders)
+    rows.push_back({io::one_line(joined_names(overlay, border.layers)), exact(border.length)});
+  for (const std::string& line : aligned(rows)) std::cout << line << '\n';
 }
 
 void print_faults(const Overlay& overlay, const CoverageFaults& faults) {
@@ -154,13 +184,18 @@ void write_coverage(const CoverageCommand& command, const Coverage& coverage,
   }
 }
 
+Json list_of(const Overlay& overlay, std::span<const CommonBorder> borders) {
+  Json list = Json::array();
+  for (const CommonBorder& border : borders)
+    list.push_back({{"layers", names_as_json(overlay, border.layers)}, {"length", border.length}});
+  return list;
+}
+
 Json list_of(const Overlay& overlay, std::span<const CoverageFault> faults) {
   Json list = Json::array();
   for (const CoverageFault& fault : faults) {
-    Json layers = Json::array();
-    for (const overlay::LayerId layer : fault.layers) layers.push_back(overlay.name(layer));
     const cdt::Point at = fault.polygon.outer.front();
-    list.push_back({{"layers", std::move(layers)},
+    list.push_back({{"layers", names_as_json(overlay, fault.layers)},
                     {"area", fault.area.to_double()},
                     {"width", fault.width},
                     {"at", {at.x, at.y}}});
@@ -170,17 +205,17 @@ Json list_of(const Overlay& overlay, std::span<const CoverageFault> faults) {
 
 /// What `loft coverage --json` prints: schema "loft-coverage", schema_version 1, loft (version),
 /// inputs, outputs, layers (a number); overlaps and gaps, {"layers", "area", "width", "at": [x, y]}
-/// each; seas, how many gaps are no faults; seconds of each stage (read, check, write, total).
-/// Later versions of the schema may add keys.
+/// each; seas, how many gaps are no faults; with --borders borders, {"layers", "length"} each;
+/// seconds of each stage (read, check, write, total). Later versions of the schema may add keys.
 std::string to_json(const CoverageCommand& command, const Overlay& overlay,
-                    const CoverageFaults& faults, std::size_t seas,
-                    const std::map<std::string, double>& seconds) {
+                    const CoverageReport& report) {
   Json json = begin_report("loft-coverage", 1, {&command.map, 1}, command.outputs);
   json["layers"] = overlay.layer_count();
-  json["overlaps"] = list_of(overlay, faults.overlaps);
-  json["gaps"] = list_of(overlay, faults.gaps);
-  json["seas"] = seas;
-  json["seconds"] = seconds;
+  json["overlaps"] = list_of(overlay, report.faults.overlaps);
+  json["gaps"] = list_of(overlay, report.faults.gaps);
+  json["seas"] = report.seas;
+  if (command.borders) json["borders"] = list_of(overlay, report.borders);
+  json["seconds"] = report.seconds;
   return print(json);
 }
 
@@ -191,38 +226,50 @@ std::string summed(std::span<const CoverageFault> faults, const std::string& wha
   return counted(faults.size(), what) + " of area " + rounded(sum.to_double());
 }
 
+void print_report(const CoverageCommand& command, const Overlay& overlay,
+                  const CoverageReport& report) {
+  if (command.json) {
+    std::cout << to_json(command, overlay, report) << '\n';
+    return;
+  }
+  print_faults(overlay, report.faults);
+  if (command.borders) print_borders(overlay, report.borders);
+}
+
+void say_report(Terminal& terminal, const Overlay& overlay, const CoverageReport& report) {
+  const auto& [overlaps, gaps] = report.faults;
+  terminal.say(counted(overlay.layer_count(), "layer") + ": " + summed(overlaps, "overlap") + ", " +
+               summed(gaps, "gap"));
+  if (report.seas > 0) terminal.say(counted(report.seas, "gap") + " that wide or wider: no fault");
+}
+
 }  // namespace
 
 ExitCode run(const CoverageCommand& command) {
   Terminal terminal(command.quiet);
-  std::map<std::string, double> seconds;
+  CoverageReport report;
   Stopwatch total;
   Stopwatch stopwatch;
   forbid_overwriting({&command.map, 1}, command.outputs);
   for (const auto& output : command.outputs) check_table_or_map(output);
 
   const Coverage coverage = coverage_of(command);
-  seconds["read"] = stopwatch.lap();
+  report.seconds["read"] = stopwatch.lap();
 
-  CoverageFaults faults = check_coverage(coverage.overlay);
-  const std::size_t seas = leave_out_seas(faults, command.gap_width);
-  const bool has_faults = !faults.overlaps.empty() || !faults.gaps.empty();
-  seconds["check"] = stopwatch.lap();
+  report.faults = check_coverage(coverage.overlay);
+  report.seas = leave_out_seas(report.faults, command.gap_width);
+  if (command.borders) report.borders = borders_of(coverage.overlay);
+  report.seconds["check"] = stopwatch.lap();
 
-  if (!command.outputs.empty()) write_coverage(command, coverage, faults);
-  seconds["write"] = stopwatch.lap();
-  seconds["total"] = total.lap();
+  if (!command.outputs.empty()) write_coverage(command, coverage, report.faults);
+  report.seconds["write"] = stopwatch.lap();
+  report.seconds["total"] = total.lap();
 
-  if (command.json)
-    std::cout << to_json(command, coverage.overlay, faults, seas, seconds) << '\n';
-  else
-    print_faults(coverage.overlay, faults);
-  terminal.say(counted(coverage.overlay.layer_count(), "layer") + ": " +
-               summed(faults.overlaps, "overlap") + ", " + summed(faults.gaps, "gap"));
-  if (seas > 0) terminal.say(counted(seas, "gap") + " that wide or wider: no fault");
-  for (const std::string& note : notes_on(coverage.overlay)) terminal.say(note);
-  for (const auto& output : command.outputs) terminal.say("wrote " + output.string());
-  return command.check && has_faults ? ExitCode::check_failed : ExitCode::ok;
+  print_report(command, coverage.overlay, report);
+  say_report(terminal, coverage.overlay, report);
+  say_notes(terminal, coverage.overlay, command.outputs);
+  const bool is_sound = report.faults.overlaps.empty() && report.faults.gaps.empty();
+  return command.check && !is_sound ? ExitCode::check_failed : ExitCode::ok;
 }
 
 }  // namespace loft::app

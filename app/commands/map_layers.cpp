@@ -150,6 +150,12 @@ std::string common_crs(std::span<const io::Map> maps, std::span<const path> inpu
   return first ? maps[*first].crs : std::string();
 }
 
+Json names_as_json(const overlay::Overlay& overlay, std::span<const overlay::LayerId> layers) {
+  Json list = Json::array();
+  for (const overlay::LayerId layer : layers) list.push_back(overlay.name(layer));
+  return list;
+}
+
 std::string json_list(const overlay::Overlay& overlay, std::span<const overlay::LayerId> layers) {
   std::string text = "[";
   for (const overlay::LayerId layer : layers) {
@@ -183,15 +189,13 @@ std::optional<std::string> note_on_lines(std::span<const io::Map> maps) {
          ": only polygons have an inside";
 }
 
-std::vector<std::string> notes_on(const overlay::Overlay& overlay) {
-  std::vector<std::string> notes;
+void say_notes(Terminal& terminal, const overlay::Overlay& overlay, std::span<const path> outputs) {
   if (const std::size_t empty = overlay.rings_without_inside().size(); empty > 0)
-    notes.push_back(counted(empty, "ring") + " without an inside: fewer than three places");
+    terminal.say(counted(empty, "ring") + " without an inside: fewer than three places");
   if (const std::size_t snaps = overlay.triangulation().snaps().size(); snaps > 0)
-    notes.push_back(
-        "rounding decides in " + counted(snaps, "place") +
-        ": an outline goes through a vertex hardly beside it, or past one hardly on it");
-  return notes;
+    terminal.say("rounding decides in " + counted(snaps, "place") +
+                 ": an outline goes through a vertex hardly beside it, or past one hardly on it");
+  for (const path& output : outputs) terminal.say("wrote " + output.string());
 }
 
 }  // namespace loft::app

@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "app/json.h"
+#include "app/terminal.h"
 #include "io/planar/map.h"
 #include "overlay/overlay.h"
 
@@ -47,7 +49,10 @@ using LayerNames = std::vector<std::vector<std::string>>;
 [[nodiscard]] std::string common_crs(std::span<const io::Map> maps,
                                      std::span<const std::filesystem::path> inputs);
 
-/// The names of layers as a JSON list; the same with semicolons between them, as CSV has them.
+/// The names of layers for reports; as the text of a JSON list; and with semicolons between them,
+/// as CSV has them.
+[[nodiscard]] Json names_as_json(const overlay::Overlay& overlay,
+                                 std::span<const overlay::LayerId> layers);
 [[nodiscard]] std::string json_list(const overlay::Overlay& overlay,
                                     std::span<const overlay::LayerId> layers);
 [[nodiscard]] std::string joined_names(const overlay::Overlay& overlay,
@@ -55,7 +60,8 @@ using LayerNames = std::vector<std::vector<std::string>>;
 
 /// What is said of maps whose lines or points are not used; nothing where there are none.
 [[nodiscard]] std::optional<std::string> note_on_lines(std::span<const io::Map> maps);
-/// What is said of rings that enclose nothing, and of places where rounding decides.
-[[nodiscard]] std::vector<std::string> notes_on(const overlay::Overlay& overlay);
+/// Says what rings enclose nothing, where rounding decides, and what was written.
+void say_notes(Terminal& terminal, const overlay::Overlay& overlay,
+               std::span<const std::filesystem::path> outputs);
 
 }  // namespace loft::app

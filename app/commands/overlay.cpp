@@ -252,8 +252,7 @@ ExitCode run(const OverlayCommand& command) {
                counted(report.polygons, "polygon") + " with " + counted(report.holes, "hole") +
                " in " + counted(result.features.size(), "feature"));
   if (const auto note = note_on_lines(maps)) terminal.say(*note);
-  for (const std::string& note : notes_on(overlay)) terminal.say(note);
-  for (const auto& output : command.outputs) terminal.say("wrote " + output.string());
+  say_notes(terminal, overlay, command.outputs);
   if (command.json)
     std::cout << to_json(command, overlay, report, kept) << '\n';
   else if (command.areas)

@@ -27,12 +27,13 @@
 
 namespace loft::app {
 
-using overlay::Cover;
-using overlay::LinePiece;
-using overlay::Overlay;
 using std::filesystem::path;
 
 namespace {
+
+using overlay::Cover;
+using overlay::LinePiece;
+using overlay::Overlay;
 
 /// What the points or lines are in.
 const path& asked_file(const QueryCommand& command) {
@@ -128,15 +129,10 @@ io::Feature feature_of(const Overlay& overlay, const std::string& line, const Li
 
 /// Lengths by cover: {"inside": [...], "on_border": [...], "length": ...} each.
 Json length_report(const Overlay& overlay, std::span<const LinePiece> pieces) {
-  const auto names = [&](std::span<const overlay::LayerId> layers) {
-    Json list = Json::array();
-    for (const overlay::LayerId layer : layers) list.push_back(overlay.name(layer));
-    return list;
-  };
   Json report = Json::array();
   for (const auto& [cover, length] : lengths(pieces))
-    report.push_back({{"inside", names(cover.inside)},
-                      {"on_border", names(cover.on_border_of)},
+    report.push_back({{"inside", names_as_json(overlay, cover.inside)},
+                      {"on_border", names_as_json(overlay, cover.on_border_of)},
                       {"length", length}});
   return report;
 }
@@ -161,10 +157,18 @@ MapAnswer ask_lines(const Overlay& overlay, std::span<const AskedLine> lines) {
   return answer;
 }
 
-void write_answer(const QueryCommand& command, const MapAnswer& answer) {
+/// The pieces over the map that they are in.
+io::Map picture_of(io::Map map, const io::Map& pieces) {
+  map.features.insert(map.features.end(), pieces.features.begin(), pieces.features.end());
+  return map;
+}
+
+void write_answer(const QueryCommand& command, const io::Map& map, const MapAnswer& answer) {
   for (const path& output : command.outputs) {
     if (is_table(output))
       write_table(output, answer.table);
+    else if (io::extension(output) == ".svg")
+      io::write(output, picture_of(map, answer.pieces), command.drawing);
     else
       io::write(output, answer.pieces, command.drawing);
   }
@@ -227,15 +231,14 @@ ExitCode run(const QueryCommand& command) {
   answer.pieces.crs = maps.front().crs;
   seconds["ask"] = stopwatch.lap();
 
-  write_answer(command, answer);
+  write_answer(command, maps.front(), answer);
   seconds["write"] = stopwatch.lap();
   seconds["total"] = total.lap();
 
   terminal.say(counted(layers, "layer") + "; " + answer.words);
   if (const auto note = note_on_lines(maps)) terminal.say(*note);
   if (const auto note = note_on_areas(lines)) terminal.say(*note);
-  for (const std::string& note : notes_on(overlay)) terminal.say(note);
-  for (const path& output : command.outputs) terminal.say("wrote " + output.string());
+  say_notes(terminal, overlay, command.outputs);
   if (command.json) std::cout << to_json(command, layers, answer.report, seconds) << '\n';
   return ExitCode::ok;
 }

@@ -115,6 +115,7 @@ CLI::App* add_coverage(CLI::App& app, CoverageCommand& command) {
                    "Features with the same value of that property are one area (default: each is "
                    "one, called by its name, or number)");
   begin_group(*sub, map_results);
+  sub->add_flag("--borders", command.borders, "Print who shares a border, and how long it is, too");
   sub->add_option("-o,--output", command.outputs,
                   "Output file: .csv, the table of faults; " + io::map_output_extensions() +
                       ", the mended map, without --clean the faults; may be repeated")
@@ -151,7 +152,7 @@ CLI::App* add_query(CLI::App& app, QueryCommand& command) {
   begin_group(*sub, map_results);
   sub->add_option("-o,--output", command.outputs,
                   "Output file, .csv; of lines " + io::map_output_extensions() +
-                      ", too; may be repeated; standard output without it")
+                      ", too (.svg: over the map); may be repeated; standard output without it")
       ->type_name("OUT")
       ->allow_extra_args(false);
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");

@@ -282,7 +282,7 @@ namespace {
 /// How much of a text that begins with a quote is a string.
 std::size_t string_size(std::string_view text) {
   std::size_t size = 1;
-  while (text[size] != '"') size += text[size] == '\\' ? 2 : 1;
+  while (text[size] != '"') size += text[size] == '\\' ? 2U : 1U;
   return size + 1;
 }
 

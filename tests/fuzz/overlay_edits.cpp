@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // A target for libFuzzer: bytes are edits of shapes in three layers. What follows the edits must be
-// what a fresh build has, and every result's polygons must have its area.
+// what a fresh build has, and every result's polygons must be valid and have its area.
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 
+#include "overlay/validity.h"
 #include "tests/fuzz/edit_bytes.h"
 #include "tests/overlay/player.h"
 
@@ -19,9 +20,11 @@ void demand(bool holds, const char* what, const cdt::Script& script) {
 
 void judge(const Player& player, const cdt::Script& script) {
   const Overlay& overlay = player.overlay();
-  for (const ResultId result : player.results())
-    demand(area(overlay.polygons(result)) == overlay.area(result), "polygons of another area",
-           script);
+  for (const ResultId result : player.results()) {
+    const MultiPolygon polygons = overlay.polygons(result);
+    demand(area(polygons) == overlay.area(result), "polygons of another area", script);
+    demand(is_valid(polygons), "polygons that are not valid", script);
+  }
   if (!overlay.triangulation().snaps().empty()) return;
   const Player fresh = player.fresh();
   for (std::size_t i = 0; i < player.results().size(); ++i) {

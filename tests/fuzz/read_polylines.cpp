@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
-// GeoJSON, and text; what is read of both fits into a triangulation.
+// GeoJSON, text, tables of points; what is read of both fits into a triangulation.
 #include <sstream>
 
+#include "io/planar/points_csv.h"
 #include "io/planar/polylines_geojson.h"
 #include "io/planar/polylines_text.h"
 #include "mesh/admitted.h"
@@ -11,13 +12,15 @@ namespace {
 
 using namespace loft;
 
+void use(const std::vector<cdt::Point>& points) {
+  fuzz::require(!points.empty(), "a polyline without points");
+  for (const cdt::Point& p : points)
+    fuzz::require(admitted::planar.admits(p.x) && admitted::planar.admits(p.y),
+                  "a coordinate that a triangulation does not take");
+}
+
 void use(const std::vector<io::Polyline>& polylines) {
-  for (const io::Polyline& polyline : polylines) {
-    fuzz::require(!polyline.points.empty(), "a polyline without points");
-    for (const cdt::Point& p : polyline.points)
-      fuzz::require(admitted::planar.admits(p.x) && admitted::planar.admits(p.y),
-                    "a coordinate that a triangulation does not take");
-  }
+  for (const io::Polyline& polyline : polylines) use(polyline.points);
 }
 
 }  // namespace
@@ -25,6 +28,7 @@ void use(const std::vector<io::Polyline>& polylines) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t size) {
   const std::string text = fuzz::text_of(bytes, size);
   fuzz::try_to([&] { use(io::read_polylines_geojson(text, "a.geojson")); });
+  fuzz::try_to([&] { use(io::read_points_csv(text, "a.csv")); });
   fuzz::try_to([&] {
     const auto polylines = io::read_polylines_text(text, "a.txt");
     use(polylines);

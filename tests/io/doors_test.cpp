@@ -24,6 +24,8 @@
 #include "io/meshes/off.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/stl.h"
+#include "io/planar/features_geojson.h"
+#include "io/planar/points_csv.h"
 #include "io/planar/polylines_geojson.h"
 #include "io/planar/polylines_text.h"
 #include "io/stacks/edit.h"
@@ -226,6 +228,11 @@ TEST(Doors, PolylinesRefuseCoordinatesWithTheirPlaces) {
     EXPECT_NE(refusal([&] { static_cast<void>(io::read_polylines_geojson(json, "a.geojson")); }),
               "")
         << bad;
+    EXPECT_NE(refusal([&] { static_cast<void>(io::read_features_geojson(json, "a.geojson")); }), "")
+        << bad;
+    const std::string table = "x,y\n0,0\n1," + exact(bad) + "\n";
+    expect_named(refusal([&] { static_cast<void>(io::read_points_csv(table, "a.csv")); }),
+                 "a.csv:3", bad);
   }
   for (const double bad : beyond(admitted::planar))
     EXPECT_THROW(cdt::Triangulation().insert(Point{bad, 0}), std::invalid_argument) << bad;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cstdlib>
@@ -7,6 +8,7 @@
 
 #include "cdt/regions.h"
 #include "overlay/overlay.h"
+#include "overlay/validity.h"
 #include "tests/cases.h"
 #include "tests/cdt/random_edits.h"
 #include "tests/overlay/player.h"
@@ -73,9 +75,12 @@ void expect_laws(const Overlay& overlay, const std::vector<ResultId>& results) {
   ASSERT_LE(area_of(7), a_or_b);
 }
 
-void expect_polygons_of_its_area(const Overlay& overlay, ResultId result) {
-  for (const Vertices vertices : {Vertices::needed, Vertices::all})
-    ASSERT_EQ(area(overlay.polygons(result, vertices)), overlay.area(result));
+void expect_valid_polygons_of_its_area(const Overlay& overlay, ResultId result) {
+  for (const Vertices vertices : {Vertices::needed, Vertices::all}) {
+    const MultiPolygon polygons = overlay.polygons(result, vertices);
+    ASSERT_EQ(area(polygons), overlay.area(result));
+    ASSERT_THAT(validity_problems(polygons), ::testing::IsEmpty());
+  }
 }
 
 /// Everything as if it had been built at once.
@@ -146,7 +151,7 @@ void expect_all(std::uint64_t seed, Ground ground, std::size_t edits, std::size_
     ASSERT_NO_FATAL_FAILURE(expect_right_covers(player.overlay()));
     ASSERT_NO_FATAL_FAILURE(expect_laws(player.overlay(), player.results()));
     for (const ResultId result : player.results())
-      ASSERT_NO_FATAL_FAILURE(expect_polygons_of_its_area(player.overlay(), result));
+      ASSERT_NO_FATAL_FAILURE(expect_valid_polygons_of_its_area(player.overlay(), result));
     if (player.overlay().triangulation().snaps().empty()) {
       ASSERT_NO_FATAL_FAILURE(expect_fresh(player));
     }

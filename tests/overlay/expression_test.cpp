@@ -35,7 +35,7 @@ bool answer(const Expression& expression, unsigned cover) {
     }
     std::uint32_t count = 0;
     for (std::uint32_t i = 0; i < term.operands; ++i) {
-      count += stack.back() ? 1 : 0;
+      count += stack.back() ? 1U : 0U;
       stack.pop_back();
     }
     stack.push_back(term.kind == Kind::odd        ? count % 2 != 0

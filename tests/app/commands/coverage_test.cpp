@@ -57,6 +57,17 @@ TEST(CoverageCommand, ChecksWithItsExitCode) {
   EXPECT_EQ(outcome.err, "2 layers: 0 overlaps of area 0, 0 gaps of area 0\n");
 }
 
+TEST(CoverageCommand, ListsBorders) {
+  const Folder folder;
+  static_cast<void>(folder.write("map.geojson", sound));
+  EXPECT_EQ(run(folder, "coverage map.geojson --borders").out,
+            "border     length\n"
+            "west;east       4\n");
+  const Outcome outcome = run(folder, "coverage map.geojson --borders --json");
+  EXPECT_EQ(nlohmann::json::parse(outcome.out)["borders"],
+            nlohmann::json::parse(R"([{"layers":["west","east"],"length":4.0}])"));
+}
+
 TEST(CoverageCommand, MendsTheMap) {
   const Folder folder;
   static_cast<void>(folder.write("map.geojson", parcels));
