@@ -23,7 +23,6 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::MadeContour;
 using testing::MadeRoi;
-using testing::message_of;
 using ::testing::Not;
 using testing::problem;
 using testing::read;

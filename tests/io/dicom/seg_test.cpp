@@ -28,7 +28,6 @@ using testing::bytes_of;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::message_of;
 using testing::problem;
 using testing::put;
 using testing::read;
