@@ -79,7 +79,7 @@ TEST(PinHoles, DoNotDependOnDirectionAndStart) {
     Pixels pixels = ring(8, 4);
     if (is_turned) std::ranges::reverse(pixels);
     for (std::size_t i = 0; i < pixels.size(); ++i) {
-      std::ranges::rotate(pixels, pixels.begin() + 1);
+      std::rotate(pixels.begin(), pixels.begin() + 1, pixels.end());
       Contours contours{contour(pixels)};
       EXPECT_EQ(close_pin_holes(contours).count, 1U);
       ASSERT_EQ(contours.size(), 2U);
