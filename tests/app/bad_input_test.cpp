@@ -13,7 +13,7 @@ namespace {
 
 using namespace testing;
 
-struct Case {
+struct Mistake {
   std::string name;
   std::string stack;  ///< content of in.ndjson; no file if it is "-"
   std::string arguments;
@@ -21,15 +21,15 @@ struct Case {
   std::vector<std::string> words;  ///< all of them are on stderr
 };
 
-/// What GoogleTest prints of a case.
-void PrintTo(const Case& shown, std::ostream* out) { *out << shown.name; }
+/// What GoogleTest prints of a mistake.
+void PrintTo(const Mistake& shown, std::ostream* out) { *out << shown.name; }
 
 const std::string to_ply = "reconstruct in.ndjson -o out.ply";
 const std::string nan_slice =
     R"({"z": 2, "contours": [[[0, 0], [9, 0], [9, 9]], [[1, 1], [2, NaN], [2, 2]]]})"
     "\n";
 
-const std::vector<Case> cases{
+const std::vector<Mistake> mistakes{
     // Files.
     {"MissingFile", "-", to_ply, 3, {"cannot read in.ndjson: No such file or directory"}},
     {"EmptyFile", "", to_ply, 3, {"in.ndjson: no slices in it"}},
@@ -103,10 +103,10 @@ const std::vector<Case> cases{
     {"BadCap", barrel(), to_ply + " --cap round", 2, {"round", "dome"}},
 };
 
-class BadInput : public ::testing::TestWithParam<Case> {};
+class BadInput : public ::testing::TestWithParam<Mistake> {};
 
 TEST_P(BadInput, IsNamedAndNothingIsWritten) {
-  const Case& wanted = GetParam();
+  const Mistake& wanted = GetParam();
   const Folder folder;
   if (wanted.stack != "-") static_cast<void>(folder.write("in.ndjson", wanted.stack));
   const Outcome outcome = run(folder, wanted.arguments);
@@ -118,7 +118,7 @@ TEST_P(BadInput, IsNamedAndNothingIsWritten) {
   EXPECT_EQ(folder.size(), wanted.stack == "-" ? 2U : 3U);  // out.txt, err.txt, in.ndjson
 }
 
-INSTANTIATE_TEST_SUITE_P(Loft, BadInput, ::testing::ValuesIn(cases),
+INSTANTIATE_TEST_SUITE_P(Loft, BadInput, ::testing::ValuesIn(mistakes),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -30,7 +30,7 @@ std::string join(const std::vector<std::string>& points) {
 
 const std::string clean = join({std::begin(corner), std::end(corner)});
 
-struct Case {
+struct DirtyStack {
   std::string name;
   std::string stack;
   std::vector<std::string> repairs;         ///< kinds that the report must name
@@ -41,8 +41,8 @@ struct Case {
   std::string options = {};  ///< of the command line
 };
 
-/// What GoogleTest prints of a case.
-void PrintTo(const Case& shown, std::ostream* out) { *out << shown.name; }
+/// What GoogleTest prints of a stack.
+void PrintTo(const DirtyStack& shown, std::ostream* out) { *out << shown.name; }
 
 std::string each(const std::string& contours) {
   return slice(0, contours) + slice(1, contours) + slice(2, contours);
@@ -63,7 +63,7 @@ std::string keyhole(const std::string& width) {
          ", 3], [0." + width.substr(width.find('.') + 1) + ", 0], [9, 0], [9, 9], [0, 9]]";
 }
 
-const std::vector<Case> cases{
+const std::vector<DirtyStack> dirty_stacks{
     {"Clean", barrel(), {}, barrel()},
     {"SelfCrossing",
      barrel(middle(join({corner[0], corner[2], corner[1], corner[3], corner[4], corner[5],
@@ -145,10 +145,10 @@ nlohmann::json reconstruct(const Folder& folder, const std::string& stack,
   return outcome.exit_code == 0 ? nlohmann::json::parse(outcome.out) : nlohmann::json();
 }
 
-class Dirty : public ::testing::TestWithParam<Case> {};
+class Dirty : public ::testing::TestWithParam<DirtyStack> {};
 
 TEST_P(Dirty, GivesAValidSolidAndIsReported) {
-  const Case& wanted = GetParam();
+  const DirtyStack& wanted = GetParam();
   const Folder folder;
   const nlohmann::json report = reconstruct(folder, wanted.stack, wanted.options);
   ASSERT_FALSE(report.is_null());
@@ -168,7 +168,7 @@ TEST_P(Dirty, GivesAValidSolidAndIsReported) {
   EXPECT_NEAR(report["volume"].get<double>() / volume, 1, std::max(wanted.tolerance, 1e-12));
 }
 
-INSTANTIATE_TEST_SUITE_P(Loft, Dirty, ::testing::ValuesIn(cases),
+INSTANTIATE_TEST_SUITE_P(Loft, Dirty, ::testing::ValuesIn(dirty_stacks),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

@@ -7,9 +7,8 @@ namespace loft::io {
 namespace {
 
 using testing::append;
+using testing::problem;
 using testing::read;
-
-std::string problem(std::string_view bytes) { return testing::problem(read_cli, bytes); }
 
 /// `more` are further entries of the header.
 std::string header(const std::string& more = "$$ASCII\n") {
@@ -127,7 +126,8 @@ TEST(Cli, ReadsLongBinaryCommandsAndAlignedOnes) {
 }
 
 TEST(Cli, SaysThatNothingIsClosed) {
-  const std::string text = problem(header() + "$$LAYER/1$$POLYLINE/1,2,2,0,0,1,1$$LAYER/2");
+  const std::string text =
+      problem(read_cli, header() + "$$LAYER/1$$POLYLINE/1,2,2,0,0,1,1$$LAYER/2");
   EXPECT_NE(text.find("no closed outline in it, only 1 open polyline"), std::string::npos) << text;
 }
 
@@ -148,12 +148,14 @@ TEST(Cli, CountsTheLayersThatTheHeaderPromises) {
 }
 
 TEST(Cli, ListsWhatIsWrong) {
-  EXPECT_NE(problem("$$HEADERSTART").find("$$HEADEREND is missing"), std::string::npos);
-  EXPECT_NE(problem("$$HEADERSTART$$HEADEREND").find("$$UNITS is missing"), std::string::npos);
-  EXPECT_NE(problem("$$HEADERSTART\n$$UNITS/0$$HEADEREND").find("a.file:2: $$UNITS: '0' is no"),
+  EXPECT_NE(problem(read_cli, "$$HEADERSTART").find("$$HEADEREND is missing"), std::string::npos);
+  EXPECT_NE(problem(read_cli, "$$HEADERSTART$$HEADEREND").find("$$UNITS is missing"),
             std::string::npos);
-  EXPECT_EQ(problem(header() + "\n$$LAYER/nan\n$$POLYLINE/1,1,3,0,0\n$$LAYER/2\n" +
-                    "$$POLYLINE/1,5,1,0,0\n$$POLYLINE/1,1,2000000000,0,0"),
+  EXPECT_NE(
+      problem(read_cli, "$$HEADERSTART\n$$UNITS/0$$HEADEREND").find("a.file:2: $$UNITS: '0' is no"),
+      std::string::npos);
+  EXPECT_EQ(problem(read_cli, header() + "\n$$LAYER/nan\n$$POLYLINE/1,1,3,0,0\n$$LAYER/2\n" +
+                                  "$$POLYLINE/1,5,1,0,0\n$$POLYLINE/1,1,2000000000,0,0"),
             "a.file: line 6: expected a height, found 'nan'\n"
             "a.file: line 7: a polyline of 3 points has 2 coordinates; it is cut off or damaged\n"
             "a.file: line 9: the direction 5 of a polyline is none; 0 is inside, 1 outside, 2 "
@@ -168,16 +170,16 @@ TEST(Cli, NamesTheByteOfWhatIsWrong) {
   append_layer(bytes, 0);
   const std::string good = bytes;
   append_square(bytes, 0, 0, 0xFFFF);
-  EXPECT_NE(problem(bytes).find("262140 bytes should come, the file ends after 20"),
+  EXPECT_NE(problem(read_cli, bytes).find("262140 bytes should come, the file ends after 20"),
             std::string::npos);
   bytes = binary();
   append(bytes, std::uint16_t{999}, little);
-  EXPECT_EQ(problem(bytes),
+  EXPECT_EQ(problem(read_cli, bytes),
             begin + ": the command 999 is unknown, and where it ends; save the file as ASCII");
   bytes = good;
   append(bytes, std::uint16_t{130}, little);
   for (const std::int32_t head : {1, 1, -3}) append(bytes, head, little);
-  EXPECT_NE(problem(bytes).find("a count of points is negative"), std::string::npos);
+  EXPECT_NE(problem(read_cli, bytes).find("a count of points is negative"), std::string::npos);
 }
 
 TEST(Cli, IsHurtByNoCut) {

@@ -149,7 +149,7 @@ TEST(Csl, SaysWhatIsWrong) {
 TEST(Csl, IsHurtByNoCut) { testing::expect_no_cut_hurts(read_csl, csl); }
 
 /// A triangle, and a line that ends beside it.
-const std::string contour = R"(1
+const std::string contour_file = R"(1
 0 0 1 -3
 5 5
 0 0 3
@@ -202,7 +202,7 @@ TEST(ContourFile, JoinsTheBoundaryOfEachMaterial) {
 }
 
 TEST(ContourFile, CountsLinesThatEnd) {
-  const Stack stack = read(read_contour, contour);
+  const Stack stack = read(read_contour, contour_file);
   EXPECT_EQ(stack.notes.at(0), "1 open line left out");
 }
 
@@ -224,7 +224,7 @@ TEST(ContourFile, SaysWhatIsWrong) {
   EXPECT_NE(problem(read_contour, "0").find("no plane in it"), std::string::npos);
 }
 
-TEST(ContourFile, IsHurtByNoCut) { testing::expect_no_cut_hurts(read_contour, contour); }
+TEST(ContourFile, IsHurtByNoCut) { testing::expect_no_cut_hurts(read_contour, contour_file); }
 
 }  // namespace
 }  // namespace loft::io

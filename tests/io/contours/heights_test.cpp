@@ -42,13 +42,13 @@ TEST(HeightGroups, LeaveOtherHeightsAlone) {
   EXPECT_EQ(HeightGroups({1, 2}).of(9), 9);
 }
 
-const Contour square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}, "a"};
+const Contour unit_square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}}, "a"};
 
 TEST(StackBuilder, MakesAscendingSlicesOfClosedContours) {
   StackBuilder builder("a.file");
-  builder.add(square, 2);
-  builder.add(square, 1, 1.0000001);  // level but for rounding
-  builder.add(square, 0, 1);          // in no plane
+  builder.add(unit_square, 2);
+  builder.add(unit_square, 1, 1.0000001);  // level but for rounding
+  builder.add(unit_square, 0, 1);          // in no plane
   builder.add({{{0, 0}, {1, 1}}, "a"}, 1);
   builder.add_height(3);
   builder.skip("b", "open line", 2);

@@ -10,9 +10,8 @@ namespace loft::io {
 namespace {
 
 using testing::append;
+using testing::problem;
 using testing::read;
-
-std::string problem(std::string_view bytes) { return testing::problem(read_imod, bytes); }
 
 constexpr auto big = std::endian::big;
 using Point = std::array<float, 3>;
@@ -79,17 +78,17 @@ class Model {
   std::string bytes_;
 };
 
-std::vector<Point> square(float z, float side = 10) {
+std::vector<Point> square_at(float z, float side = 10) {
   return {{0, 0, z}, {side, 0, z}, {side, side, z}, {0, side, z}};
 }
 
 TEST(Imod, ReadsObjectsAsLabelsInRealSizes) {
   const Stack stack = read(read_imod, Model()
                                           .object("cell", 0, 2)
-                                          .contour(square(3))
-                                          .contour(square(3, 4))
+                                          .contour(square_at(3))
+                                          .contour(square_at(3, 4))
                                           .object("", 0)
-                                          .contour(square(4))
+                                          .contour(square_at(4))
                                           .bytes());
   EXPECT_EQ(stack.unit, "nm");
   EXPECT_EQ(stack.fill, Fill::even_odd);  // nested ones are holes
@@ -109,20 +108,20 @@ TEST(Imod, LeavesOutWhatIsOpenScatteredOrInNoPlane) {
   constexpr std::uint32_t open = 1U << 3U;
   constexpr std::uint32_t wild = 1U << 4U;
   constexpr std::uint32_t scattered = 1U << 9U;
-  std::vector<Point> tilted = square(1);
+  std::vector<Point> tilted = square_at(1);
   tilted[2][2] = 5;
   const Stack stack = read(read_imod, Model()
                                           .object("a", 0)
-                                          .contour(square(1))
-                                          .contour(square(2), wild)  // an old flag: it is level
-                                          .contour(square(3), open)
+                                          .contour(square_at(1))
+                                          .contour(square_at(2), wild)  // an old flag: it is level
+                                          .contour(square_at(3), open)
                                           .contour({{1, 1, 1}})
                                           .contour({})
                                           .contour(tilted, wild)
                                           .object("lines", open)
-                                          .contour(square(1))
+                                          .contour(square_at(1))
                                           .object("balls", scattered)
-                                          .contour(square(1))
+                                          .contour(square_at(1))
                                           .bytes());
   EXPECT_EQ(stack.slices.size(), 2U);
   EXPECT_EQ(stack.notes, (std::vector<std::string>{
@@ -133,16 +132,16 @@ TEST(Imod, LeavesOutWhatIsOpenScatteredOrInNoPlane) {
 }
 
 TEST(Imod, BringsSectionsTogetherThatDifferByRounding) {
-  std::vector<Point> drifting = square(36);
+  std::vector<Point> drifting = square_at(36);
   drifting[1][2] = 36.000004F;
   const Stack stack = read(read_imod, Model()
                                           .object("a", 0)
-                                          .contour(square(36))
+                                          .contour(square_at(36))
                                           .contour(drifting)
-                                          .contour(square(36.000004F))
-                                          .contour(square(1.97e-06F))
-                                          .contour(square(0))
-                                          .contour(square(1))
+                                          .contour(square_at(36.000004F))
+                                          .contour(square_at(1.97e-06F))
+                                          .contour(square_at(0))
+                                          .contour(square_at(1))
                                           .bytes());
   ASSERT_EQ(stack.slices.size(), 3U);
   EXPECT_EQ(stack.slices[0].z, 0);
@@ -167,7 +166,7 @@ TEST(Imod, ReadsModelsThatWereDrawnOnFlippedImages) {
 
 TEST(Imod, PutsTheOriginOfTheImageIntoTheFrameWhereItCounts) {
   Model model;
-  model.object("a", 0).contour(square(1)).contour(square(2)).image(5, {-20, 30, 0});
+  model.object("a", 0).contour(square_at(1)).contour(square_at(2)).image(5, {-20, 30, 0});
   EXPECT_FALSE(read(read_imod, model.bytes()).frame);
   model.flags = 1U << 14U;
   const Stack stack = read(read_imod, model.bytes());
@@ -178,7 +177,7 @@ TEST(Imod, PutsTheOriginOfTheImageIntoTheFrameWhereItCounts) {
 TEST(Imod, LeavesOutAnOriginThatIsNone) {
   Model model;
   model.flags = 1U << 14U;
-  model.object("a", 0).contour(square(1)).image(0, {-20, 30, std::numeric_limits<float>::max()});
+  model.object("a", 0).contour(square_at(1)).image(0, {-20, 30, std::numeric_limits<float>::max()});
   const Stack stack = read(read_imod, model.bytes());
   EXPECT_FALSE(stack.frame);
   EXPECT_EQ(stack.notes.at(0), "the origin of the image in MINX is no place; left out");
@@ -186,47 +185,50 @@ TEST(Imod, LeavesOutAnOriginThatIsNone) {
 
 TEST(Imod, PassesOverOtherChunks) {
   Model model;
-  model.object("a", 0).contour(square(1)).chunk("IMAT", "0123").chunk("MEPA", "");
+  model.object("a", 0).contour(square_at(1)).chunk("IMAT", "0123").chunk("MEPA", "");
   std::string mesh = "MESH";
   for (const std::uint32_t count : {1U, 2U, 0U, 0U}) append(mesh, count, big);
-  model.raw(mesh + std::string(12 + 8, '\0')).contour(square(2));
+  model.raw(mesh + std::string(12 + 8, '\0')).contour(square_at(2));
   EXPECT_EQ(read(read_imod, model.bytes("IEOFmore")).slices.size(), 2U);
 }
 
 TEST(Imod, TellsObjectsOfOneNameApart) {
-  const Stack stack =
-      read(read_imod,
-           Model().object("a", 0).contour(square(1)).object("a", 0).contour(square(1)).bytes());
+  const Stack stack = read(
+      read_imod,
+      Model().object("a", 0).contour(square_at(1)).object("a", 0).contour(square_at(1)).bytes());
   EXPECT_EQ(testing::labels_in(stack.slices.at(0)),
             (std::vector<std::string>{"a (object 1)", "a (object 2)"}));
 }
 
 TEST(Imod, SaysThatNothingIsClosed) {
-  const std::string text = problem(Model().object("a", 8).contour(square(1)).bytes());
+  const std::string text = problem(read_imod, Model().object("a", 8).contour(square_at(1)).bytes());
   EXPECT_NE(text.find("no closed outline in it, only 1 open line"), std::string::npos) << text;
 }
 
 TEST(Imod, NamesTheByteOfWhatIsWrong) {
-  EXPECT_NE(problem("IMODV1.1 and more").find("byte 0: begins with 'IMODV1.1' instead"),
+  EXPECT_NE(problem(read_imod, "IMODV1.1 and more").find("byte 0: begins with 'IMODV1.1' instead"),
             std::string::npos);
   Model model;
   model.pixel_size = 0;
   model.z_scale = std::numeric_limits<float>::quiet_NaN();
   model.object("a", 0).contour({{0, 0, 0}, {1, std::numeric_limits<float>::infinity(), 0}});
-  EXPECT_EQ(problem(model.bytes()),
+  EXPECT_EQ(problem(read_imod, model.bytes()),
             "a.file: byte 192: the z scale is NaN; set it in 3dmod: Edit, Model, Header\n"
             "a.file: byte 216: the pixel size is not positive; set it in 3dmod: Edit, Model, "
             "Header\n"
             "a.file: byte 456: object 1 contour 1 point 1: inf is not finite");
-  EXPECT_NE(problem(Model().object("a", 0).bytes("")).find("without its last mark, IEOF"),
+  EXPECT_NE(
+      problem(read_imod, Model().object("a", 0).bytes("")).find("without its last mark, IEOF"),
+      std::string::npos);
+  EXPECT_NE(problem(read_imod, Model().object("a", 0, 1U << 31U).bytes())
+                .find("more than the file has room"),
             std::string::npos);
-  EXPECT_NE(problem(Model().object("a", 0, 1U << 31U).bytes()).find("more than the file has room"),
-            std::string::npos);
-  EXPECT_NE(problem(Model().contour(square(1)).bytes()).find("before the first object"),
-            std::string::npos);
+  EXPECT_NE(
+      problem(read_imod, Model().contour(square_at(1)).bytes()).find("before the first object"),
+      std::string::npos);
   std::string huge = "CONT";
   append(huge, 0x80000000U, big);
-  EXPECT_NE(problem(Model().object("a", 0).raw(huge + std::string(12, '\0')).bytes())
+  EXPECT_NE(problem(read_imod, Model().object("a", 0).raw(huge + std::string(12, '\0')).bytes())
                 .find("25769803776 bytes should come"),
             std::string::npos);
 }
@@ -234,7 +236,7 @@ TEST(Imod, NamesTheByteOfWhatIsWrong) {
 TEST(Imod, IsHurtByNoCut) {
   Model model;
   model.flags = 1U << 14U;
-  model.object("a", 0).contour(square(1)).contour(square(2)).image(5, {1, 2, 3});
+  model.object("a", 0).contour(square_at(1)).contour(square_at(2)).image(5, {1, 2, 3});
   testing::expect_no_cut_hurts(read_imod, model.bytes());
 }
 

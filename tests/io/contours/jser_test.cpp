@@ -8,15 +8,12 @@
 namespace loft::io {
 namespace {
 
+using testing::problem;
 using testing::read;
 using Points = std::vector<cdt::Point>;
 
-std::string problem(std::string_view text, const ReadOptions& options = {}) {
-  return testing::problem(read_jser, text, options);
-}
-
 /// A trace as a list: a square with its lower left corner and side.
-std::string square(double x, double y, double side, const char* flags = "true,false,false") {
+std::string square_trace(double x, double y, double side, const char* flags = "true,false,false") {
   const auto text = [](double a, double b, double c, double d) {
     return '[' + std::to_string(a) + ',' + std::to_string(b) + ',' + std::to_string(c) + ',' +
            std::to_string(d) + ']';
@@ -53,10 +50,10 @@ double area(const Slice& slice) {
 }
 
 TEST(Jser, ReadsAListOfSections) {
-  const Stack stack = read(
-      read_jser,
-      list_of(section("\"axon\":[" + square(0, 0, 2) + "]") + ",null," +
-              section("\"axon\":[" + square(0, 0, 2) + "],\"spine\":[" + square(5, 0, 1) + "]")));
+  const Stack stack =
+      read(read_jser, list_of(section("\"axon\":[" + square_trace(0, 0, 2) + "]") + ",null," +
+                              section("\"axon\":[" + square_trace(0, 0, 2) + "],\"spine\":[" +
+                                      square_trace(5, 0, 1) + "]")));
   EXPECT_EQ(stack.unit, "um");
   EXPECT_EQ(stack.fill, Fill::nonzero);
   EXPECT_EQ(stack.labels, (std::vector<StackLabel>{{"axon", Colour{255, 128, 0}, "", "", {}},
@@ -85,13 +82,13 @@ TEST(Jser, ReadsAMemberASection) {
 
 TEST(Jser, ReadsAnObjectOfSections) {
   const Stack stack =
-      read(read_jser, R"({"sections":{"3":)" + section("\"a\":[" + square(0, 0, 1) + "]") +
+      read(read_jser, R"({"sections":{"3":)" + section("\"a\":[" + square_trace(0, 0, 1) + "]") +
                           R"(},"series":{}})");
   EXPECT_DOUBLE_EQ(stack.slices.at(0).z, 0.2);
 }
 
 TEST(Jser, SumsThicknesses) {
-  const std::string contours = "\"a\":[" + square(0, 0, 1) + "]";
+  const std::string contours = "\"a\":[" + square_trace(0, 0, 1) + "]";
   const Stack stack =
       read(read_jser, list_of(section(contours, "0.05") + ',' + section(contours, "0.1") +
                               ",null," + section(contours, "0.1")));
@@ -103,7 +100,7 @@ TEST(Jser, SumsThicknesses) {
 TEST(Jser, PlacesTracesByAnAlignment) {
   const std::string tforms = R"({"default":[1,0,0,0,1,0],"local":[0,-2,10,2,0,20]})";
   const std::string text =
-      list_of(section("\"a\":[" + square(1, 0, 1) + "]", "0.05", tforms), "local");
+      list_of(section("\"a\":[" + square_trace(1, 0, 1) + "]", "0.05", tforms), "local");
   EXPECT_EQ(read(read_jser, text).slices.at(0).contours.at(0).points,
             (Points{{10, 22}, {10, 24}, {8, 24}, {8, 22}}));
   ReadOptions options;
@@ -114,7 +111,7 @@ TEST(Jser, PlacesTracesByAnAlignment) {
   EXPECT_EQ(read(read_jser, text, options).slices.at(0).contours.at(0).points[0],
             (cdt::Point{1, 0}));
   options.alignment = "globl";
-  EXPECT_EQ(problem(text, options),
+  EXPECT_EQ(problem(read_jser, text, options),
             "a.file: the alignment 'globl' is missing in 1 section; there are 'default', 'local': "
             "name one by --alignment");
 }
@@ -123,7 +120,7 @@ TEST(Jser, FillsTracesInOneAnother) {
   // Drawn in opposite directions: both are wound around once.
   const std::string inner = R"([[1,1,2,2],[1,2,2,1],[0,0,0],true,false,false,[],[]])";
   const Stack stack =
-      read(read_jser, list_of(section("\"a\":[" + square(0, 0, 4) + ',' + inner + "]")));
+      read(read_jser, list_of(section("\"a\":[" + square_trace(0, 0, 4) + ',' + inner + "]")));
   ASSERT_EQ(stack.slices.at(0).contours.size(), 2U);
   EXPECT_EQ(area(stack.slices[0].contours[1]), 1);
 }
@@ -132,12 +129,12 @@ TEST(Jser, TakesNegativeTracesAway) {
   const std::string negative = "true,true,false";
   // Twice under the first square; half in the union; outside of all.
   const Stack stack = read(
-      read_jser,
-      list_of(section("\"a\":[" + square(0, 0, 4) + ',' + square(0, 0, 3) + ',' +
-                      square(1, 1, 1, negative.c_str()) + ',' +
-                      square(3.5, 0, 1, negative.c_str()) + ',' +
-                      square(20, 0, 1, negative.c_str()) + "],\"b\":[" + square(0, 0, 1) + "]") +
-              ',' + section("\"a\":[" + square(0, 0, 1, negative.c_str()) + "]")));
+      read_jser, list_of(section("\"a\":[" + square_trace(0, 0, 4) + ',' + square_trace(0, 0, 3) +
+                                 ',' + square_trace(1, 1, 1, negative.c_str()) + ',' +
+                                 square_trace(3.5, 0, 1, negative.c_str()) + ',' +
+                                 square_trace(20, 0, 1, negative.c_str()) + "],\"b\":[" +
+                                 square_trace(0, 0, 1) + "]") +
+                         ',' + section("\"a\":[" + square_trace(0, 0, 1, negative.c_str()) + "]")));
   ASSERT_EQ(stack.slices.size(), 1U);
   double sum = 0;
   for (const Contour& contour : stack.slices[0].contours)
@@ -148,20 +145,22 @@ TEST(Jser, TakesNegativeTracesAway) {
 
 TEST(Jser, CountsWhatItLeavesOut) {
   const std::string contours =
-      "\"a\":[" + square(0, 0, 1) + ',' + square(0, 0, 1, "false,false,false") + ',' +
-      square(0, 0, 1, "true,false,true") + ",[[1],[1],[0,0,0],true,false,false]," +
+      "\"a\":[" + square_trace(0, 0, 1) + ',' + square_trace(0, 0, 1, "false,false,false") + ',' +
+      square_trace(0, 0, 1, "true,false,true") + ",[[1],[1],[0,0,0],true,false,false]," +
       "[[1,2],[1,2],[0,0,0],true,false,false]]";
   EXPECT_EQ(read(read_jser, list_of(section(contours))).notes.at(0),
             "label 'a': 2 contours of 1 or 2 points, 1 hidden trace, 1 open trace left out");
   EXPECT_EQ(area(read(read_jser, list_of(section(contours))).slices.at(0)), 1);
-  EXPECT_NE(problem(list_of(section("\"a\":[" + square(0, 0, 1, "false,false,false") + "]")))
+  EXPECT_NE(problem(read_jser,
+                    list_of(section("\"a\":[" + square_trace(0, 0, 1, "false,false,false") + "]")))
                 .find("no closed outline in it, only 1 open trace"),
             std::string::npos);
 }
 
 TEST(Jser, ListsWhatIsWrong) {
   EXPECT_EQ(
-      problem(list_of(section("\"a\":[[[1,2,NaN],[1,2,3]],[[1,2,3],[1,2]],7,"
+      problem(read_jser,
+              list_of(section("\"a\":[[[1,2,NaN],[1,2,3]],[[1,2,3],[1,2]],7,"
                               "[[1,2,1e99],[1,2,3]]]") +
                       ',' + section("", "0") + ",{\"contours\":{}}," +
                       section("\"b\":3", "1", R"({"default":[1,0],"x":[0,0,1,0,0,1]})"))),
@@ -174,19 +173,20 @@ TEST(Jser, ListsWhatIsWrong) {
       "a.file: section 3: alignment 'default': a transform has 6 numbers\n"
       "a.file: section 3: alignment 'x': it leaves no area\n"
       "a.file: section 3: 'b': expected a list of traces, found a number");
-  EXPECT_NE(problem("[1]").find("a.file: expected a series"), std::string::npos);
-  EXPECT_NE(problem("{}").find("has no section"), std::string::npos);
-  EXPECT_NE(problem("{\"sections\":[{\"thickness\"").find("a.file: byte 25: broken JSON"),
-            std::string::npos);
-  EXPECT_NE(problem(std::string(100'000, '[')).find("a.file: "), std::string::npos);
-  EXPECT_NE(problem("{\"sections\":" + std::string(100'000, '[')).find("broken JSON"),
+  EXPECT_NE(problem(read_jser, "[1]").find("a.file: expected a series"), std::string::npos);
+  EXPECT_NE(problem(read_jser, "{}").find("has no section"), std::string::npos);
+  EXPECT_NE(
+      problem(read_jser, "{\"sections\":[{\"thickness\"").find("a.file: byte 25: broken JSON"),
+      std::string::npos);
+  EXPECT_NE(problem(read_jser, std::string(100'000, '[')).find("a.file: "), std::string::npos);
+  EXPECT_NE(problem(read_jser, "{\"sections\":" + std::string(100'000, '[')).find("broken JSON"),
             std::string::npos);
 }
 
 TEST(Jser, IsHurtByNoCut) {
   testing::expect_no_cut_hurts(
-      read_jser, list_of(section("\"a\":[" + square(0, 0, 1) + "]") + ',' +
-                         section("\"a\":[" + square(0, 0, 1, "true,true,false") + "]")));
+      read_jser, list_of(section("\"a\":[" + square_trace(0, 0, 1) + "]") + ',' +
+                         section("\"a\":[" + square_trace(0, 0, 1, "true,true,false") + "]")));
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 namespace loft::io {
 namespace {
 
-std::string problem(std::string_view text) { return testing::problem(read_nuages, text); }
+using testing::problem;
 
 const std::string two = R"(S 3
 v 7 z -0.5
@@ -42,15 +42,20 @@ TEST(Nuages, ReadsSections) {
 }
 
 TEST(Nuages, SaysWhatIsWrong) {
-  EXPECT_NE(problem("S 1\nv 3 z 1\n{\n0 0\n1 0\n}").find("the file ends where"), std::string::npos);
-  EXPECT_NE(problem("S 1\nv 2 z 1\n{\n0 0\n1 0\n2 2\n}").find("has 3 vertices instead of 2"),
+  EXPECT_NE(problem(read_nuages, "S 1\nv 3 z 1\n{\n0 0\n1 0\n}").find("the file ends where"),
             std::string::npos);
-  EXPECT_NE(problem("v 1").find("a.file:1: expected the letter s, found 'v'"), std::string::npos);
-  EXPECT_NE(problem("s 1\nv 3 z nan\n").find("a.file:2: a height: NaN is not a number"),
+  EXPECT_NE(
+      problem(read_nuages, "S 1\nv 2 z 1\n{\n0 0\n1 0\n2 2\n}").find("has 3 vertices instead of 2"),
+      std::string::npos);
+  EXPECT_NE(problem(read_nuages, "v 1").find("a.file:1: expected the letter s, found 'v'"),
             std::string::npos);
-  EXPECT_NE(problem("s 2147483648\n").find("the file ends"), std::string::npos);
-  EXPECT_NE(problem(two + "1").find("expected the end of the file"), std::string::npos);
-  EXPECT_NE(problem("s 0").find("no closed outline"), std::string::npos);
+  EXPECT_NE(
+      problem(read_nuages, "s 1\nv 3 z nan\n").find("a.file:2: a height: NaN is not a number"),
+      std::string::npos);
+  EXPECT_NE(problem(read_nuages, "s 2147483648\n").find("the file ends"), std::string::npos);
+  EXPECT_NE(problem(read_nuages, two + "1").find("expected the end of the file"),
+            std::string::npos);
+  EXPECT_NE(problem(read_nuages, "s 0").find("no closed outline"), std::string::npos);
 }
 
 TEST(Nuages, IsHurtByNoCut) { testing::expect_no_cut_hurts(read_nuages, two); }

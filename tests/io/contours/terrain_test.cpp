@@ -6,12 +6,9 @@
 namespace loft::io {
 namespace {
 
+using testing::problem;
 using testing::read;
 using Points = std::vector<cdt::Point>;
-
-std::string problem(std::string_view text, const ReadOptions& options = {}) {
-  return testing::problem(read_terrain, text, options);
-}
 
 std::string feature(const std::string& properties, const std::string& type,
                     const std::string& coordinates) {
@@ -25,8 +22,8 @@ std::string collection(const std::vector<std::string>& features, const std::stri
   return text + "]}";
 }
 
-std::string square(const std::string& z, double corner, double side,
-                   const std::string& third = "") {
+std::string square_line(const std::string& z, double corner, double side,
+                        const std::string& third = "") {
   const auto point = [&](double x, double y) {
     return '[' + std::to_string(x) + ',' + std::to_string(y) + third + ']';
   };
@@ -62,7 +59,7 @@ bool is_inside(const Slice& slice, double x, double y) {
 
 TEST(Terrain, ReadsClosedIsolinesWithAProperty) {
   const Stack stack =
-      read(read_terrain, collection({square(elev(20), 0, 10), square(elev(10), -5, 20)}));
+      read(read_terrain, collection({square_line(elev(20), 0, 10), square_line(elev(10), -5, 20)}));
   ASSERT_EQ(stack.slices.size(), 2U);
   EXPECT_EQ(stack.slices[0].z, 10);
   EXPECT_EQ(stack.slices[1].contours.at(0),
@@ -73,7 +70,7 @@ TEST(Terrain, ReadsClosedIsolinesWithAProperty) {
 
 TEST(Terrain, TakesTheFirstOfTheUsualProperties) {
   const std::string both = R"({"CONTOUR":3,"z":"12.5","label":"hill"})";
-  const Stack stack = read(read_terrain, collection({square(both, 0, 10)}));
+  const Stack stack = read(read_terrain, collection({square_line(both, 0, 10)}));
   EXPECT_EQ(stack.slices.at(0).z, 12.5);
   EXPECT_EQ(stack.slices[0].contours.at(0).label, "hill");
   EXPECT_EQ(stack.notes.at(0), "heights are the property z");
@@ -82,29 +79,31 @@ TEST(Terrain, TakesTheFirstOfTheUsualProperties) {
 TEST(Terrain, TakesThePropertyThatItIsTold) {
   ReadOptions options;
   options.z_property = "depth";
-  const std::string text = collection({square(R"({"ELEV":1,"depth":-7})", 0, 10, ",5")});
+  const std::string text = collection({square_line(R"({"ELEV":1,"depth":-7})", 0, 10, ",5")});
   EXPECT_EQ(read(read_terrain, text, options).slices.at(0).z, -7);
   options.z_property = "Depth";
-  EXPECT_EQ(problem(text, options),
+  EXPECT_EQ(problem(read_terrain, text, options),
             "a.file: no feature has a number 'Depth'; name the one that has them by --z-property; "
             "the first feature has 'ELEV', 'depth'");
 }
 
 TEST(Terrain, TakesThirdCoordinatesUnlessTheyAreAllTheSame) {
   const Stack third =
-      read(read_terrain, collection({square(elev(1), 0, 9, ",5"), square(elev(2), 0, 9, ",6.5")}));
+      read(read_terrain,
+           collection({square_line(elev(1), 0, 9, ",5"), square_line(elev(2), 0, 9, ",6.5")}));
   EXPECT_EQ(third.slices.at(1).z, 6.5);
   EXPECT_TRUE(third.notes.empty());
   const Stack property =
-      read(read_terrain, collection({square(elev(1), 0, 9, ",0"), square(elev(2), 0, 9, ",0")}));
+      read(read_terrain,
+           collection({square_line(elev(1), 0, 9, ",0"), square_line(elev(2), 0, 9, ",0")}));
   EXPECT_EQ(property.slices.at(1).z, 2);
 }
 
 TEST(Terrain, BringsHeightsTogetherThatDifferByRounding) {
-  const Stack stack =
-      read(read_terrain,
-           collection({square("{}", 0, 9, ",36.000003814697266"), square("{}", 20, 9, ",36"),
-                       square("{}", 40, 9, ",36"), square("{}", 0, 9, ",38")}));
+  const Stack stack = read(
+      read_terrain,
+      collection({square_line("{}", 0, 9, ",36.000003814697266"), square_line("{}", 20, 9, ",36"),
+                  square_line("{}", 40, 9, ",36"), square_line("{}", 0, 9, ",38")}));
   ASSERT_EQ(stack.slices.size(), 2U);
   EXPECT_EQ(stack.slices[0].z, 36);
 }
@@ -151,13 +150,13 @@ TEST(Terrain, RefusesBandsThatAreNone) {
     features.push_back(feature("{\"EMIN\":" + std::to_string(i) + '}', "Polygon",
                                "[[[" + x + ",0],[" + x + ",9],[" + x + ".5,0],[" + x + ",0]]]"));
   }
-  EXPECT_NE(problem(collection(features)).find("a.file: has bands at 1200 heights"),
+  EXPECT_NE(problem(read_terrain, collection(features)).find("a.file: has bands at 1200 heights"),
             std::string::npos);
 }
 
 TEST(Terrain, RefusesOpenIsolinesWithTheirNumber) {
-  EXPECT_EQ(problem(collection(
-                {square(elev(1), 0, 9), line(2, "[[0,0],[9,9]]"), line(3, "[[0,1],[8,9]]")})),
+  EXPECT_EQ(problem(read_terrain, collection({square_line(elev(1), 0, 9), line(2, "[[0,0],[9,9]]"),
+                                              line(3, "[[0,1],[8,9]]")})),
             "a.file: 2 of 3 isolines are open: they end at the border of the data; --close border "
             "closes them along it");
 }
@@ -171,12 +170,9 @@ TEST(Terrain, JoinsPiecesOfAnIsoline) {
 
 /// A slope up to the right, with a hill and a pit in it, in the box from 0 to 100.
 std::vector<std::string> slope() {
-  return {line(10, "[[10,0],[12,50],[10,100]]"),
-          line(20, "[[50,100],[48,50],[50,0]]"),
-          line(30, "[[90,0],[88,50],[90,100]]"),
-          square(elev(30), 60, 10),
-          square(elev(10), 20, 10),
-          line(40, "[[100,40],[97,50],[100,60]]"),
+  return {line(10, "[[10,0],[12,50],[10,100]]"), line(20, "[[50,100],[48,50],[50,0]]"),
+          line(30, "[[90,0],[88,50],[90,100]]"), square_line(elev(30), 60, 10),
+          square_line(elev(10), 20, 10),         line(40, "[[100,40],[97,50],[100,60]]"),
           line(5, "[[0,40],[3,50],[0,60]]")};
 }
 
@@ -216,7 +212,7 @@ TEST(Terrain, ClosesIsolinesRoundCorners) {
 
 TEST(Terrain, GivesAPitTheBoxAroundIt) {
   const Stack stack = read(read_terrain,
-                           collection({square(elev(10), 40, 20), square(elev(20), 30, 40),
+                           collection({square_line(elev(10), 40, 20), square_line(elev(20), 30, 40),
                                        line(30, "[[0,0],[100,100]]")}),
                            closing());
   EXPECT_FALSE(is_inside(stack.slices.at(0), 50, 50));
@@ -226,42 +222,48 @@ TEST(Terrain, GivesAPitTheBoxAroundIt) {
 TEST(Terrain, RefusesIsolinesThatEndInside) {
   std::vector<std::string> lines = slope();
   lines.push_back(line(20, "[[70,20],[80,30]]"));
-  const std::string text = problem(collection(lines), closing());
+  const std::string text = problem(read_terrain, collection(lines), closing());
   EXPECT_NE(text.find("a.file: 1 isoline of 8 that end inside the data"), std::string::npos)
       << text;
   EXPECT_NE(text.find("feature 7"), std::string::npos);
 }
 
 TEST(Terrain, RefusesDegrees) {
-  const std::vector<std::string> lines{square(elev(100), 8, 1), square(elev(200), 8.2, 0.5)};
-  EXPECT_NE(problem(collection(lines)).find("as it seems by their extent"), std::string::npos);
-  const std::vector<std::string> flat{square(elev(1), 8, 1), square(elev(2), 8.2, 0.5)};
+  const std::vector<std::string> lines{square_line(elev(100), 8, 1),
+                                       square_line(elev(200), 8.2, 0.5)};
+  EXPECT_NE(problem(read_terrain, collection(lines)).find("as it seems by their extent"),
+            std::string::npos);
+  const std::vector<std::string> flat{square_line(elev(1), 8, 1), square_line(elev(2), 8.2, 0.5)};
   EXPECT_EQ(read(read_terrain, collection(flat)).slices.size(), 2U);
   const std::string crs =
       R"("crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)";
-  EXPECT_NE(problem(collection(flat, crs)).find("by its coordinate system"), std::string::npos);
+  EXPECT_NE(problem(read_terrain, collection(flat, crs)).find("by its coordinate system"),
+            std::string::npos);
 }
 
 TEST(Terrain, CountsWhatItLeavesOut) {
-  const Stack stack = read(
-      read_terrain,
-      collection({square(elev(1), 0, 9), square("{}", 0, 9), feature(elev(1), "Point", "[1,1]"),
-                  R"({"type":"Feature","properties":null,"geometry":null})"}));
+  const Stack stack =
+      read(read_terrain, collection({square_line(elev(1), 0, 9), square_line("{}", 0, 9),
+                                     feature(elev(1), "Point", "[1,1]"),
+                                     R"({"type":"Feature","properties":null,"geometry":null})"}));
   EXPECT_EQ(stack.notes.at(1), "1 line without a height, 1 point left out");
   const Stack tilted = read(
-      read_terrain, collection({square("{}", 0, 9, ",5"), square("{}", 0, 9, ",6"),
+      read_terrain, collection({square_line("{}", 0, 9, ",5"), square_line("{}", 0, 9, ",6"),
                                 feature("{}", "LineString", "[[0,0,1],[1,0,2],[0,1,3],[0,0,1]]")}));
   EXPECT_EQ(tilted.notes.at(0), "1 line that is in no plane left out");
 }
 
 TEST(Terrain, SaysWhatIsWrong) {
-  EXPECT_NE(problem(collection({square("{\"a\":1}", 0, 9)})).find("has no heights"),
-            std::string::npos);
-  EXPECT_EQ(problem(collection({square(elev(1e80), 0, 9)})),
+  EXPECT_NE(
+      problem(read_terrain, collection({square_line("{\"a\":1}", 0, 9)})).find("has no heights"),
+      std::string::npos);
+  EXPECT_EQ(problem(read_terrain, collection({square_line(elev(1e80), 0, 9)})),
             "a.file: feature 0: height: 1e+80 is beyond 1e+70");
-  EXPECT_NE(problem("{\"type\":\"FeatureCollection\"").find("broken JSON"), std::string::npos);
-  EXPECT_NE(problem(collection({line(1, "[[0,NaN],[1,1]]")})).find("NaN is not a number"),
+  EXPECT_NE(problem(read_terrain, "{\"type\":\"FeatureCollection\"").find("broken JSON"),
             std::string::npos);
+  EXPECT_NE(
+      problem(read_terrain, collection({line(1, "[[0,NaN],[1,1]]")})).find("NaN is not a number"),
+      std::string::npos);
 }
 
 TEST(Terrain, IsKnownByItsFirstWords) {
@@ -271,7 +273,7 @@ TEST(Terrain, IsKnownByItsFirstWords) {
 }
 
 TEST(Terrain, IsHurtByNoCut) {
-  testing::expect_no_cut_hurts(read_terrain, collection({square(elev(1), 0, 9)}));
+  testing::expect_no_cut_hurts(read_terrain, collection({square_line(elev(1), 0, 9)}));
 }
 
 }  // namespace

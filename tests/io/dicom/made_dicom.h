@@ -14,9 +14,12 @@
 #include <numbers>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "io/dicom/dicom.h"
 #include "mesh/mesh.h"
+#include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
 #include "tests/io/shapes.h"
 
@@ -120,6 +123,14 @@ inline std::vector<Vec3> circle(double x, double y, double radius, double z) {
     points.push_back({x + radius * std::cos(angle), y + radius * std::sin(angle), z});
   }
   return points;
+}
+
+/// What the library reads of a made file, whose name is made.dcm in its messages.
+inline Stack read(std::string_view bytes) { return read_dicom({bytes, "made.dcm"}, {}); }
+
+/// What it says of a bad one; "nothing" if it takes it.
+inline std::string problem(std::string_view bytes) {
+  return message_of<InputError>([&] { static_cast<void>(read(bytes)); });
 }
 
 }  // namespace loft::io::testing

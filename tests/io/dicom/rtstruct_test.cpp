@@ -23,17 +23,12 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using testing::MadeContour;
 using testing::MadeRoi;
-using testing::message_of;
 using ::testing::Not;
+using testing::problem;
+using testing::read;
 using testing::structure_set;
 
 const std::vector<double> heights{0, 3, 6, 9, 12};
-
-Stack read(std::string_view bytes) { return read_dicom({bytes, "made.dcm"}, {}); }
-
-std::string problem(std::string_view bytes) {
-  return message_of<InputError>([&] { static_cast<void>(read(bytes)); });
-}
 
 /// Contours of one ROI.
 std::string file_of(std::vector<MadeContour> contours,

@@ -28,8 +28,9 @@ using testing::bytes_of;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using testing::message_of;
+using testing::problem;
 using testing::put;
+using testing::read;
 
 constexpr const char* segmentation = "1.2.840.10008.5.1.4.1.1.66.4";
 constexpr const char* label_map = "1.2.840.10008.5.1.4.1.1.66.7";
@@ -145,11 +146,7 @@ std::string file_of(const MadeSeg& made, E_TransferSyntax syntax = EXS_LittleEnd
   return bytes_of(set, syntax);
 }
 
-Stack read(std::string_view bytes) { return read_dicom({bytes, "made.dcm"}, {}); }
 Stack read(const MadeSeg& made) { return read(file_of(made)); }
-std::string problem(std::string_view bytes) {
-  return message_of<InputError>([&] { static_cast<void>(read(bytes)); });
-}
 std::string problem(const MadeSeg& made) { return problem(file_of(made)); }
 
 /// Whole columns of pixels of a value.
@@ -170,7 +167,7 @@ void expect_mask(const Slice& slice, const std::string& label, const std::vector
   }
 }
 
-std::vector<double> heights(const Stack& stack) {
+std::vector<double> heights_of(const Stack& stack) {
   std::vector<double> all;
   for (const Slice& slice : stack.slices) all.push_back(slice.z);
   return all;
@@ -187,7 +184,7 @@ TEST(Seg, BitsRunAcrossFramesWhoseOrderIsThatOfTheirPlaces) {
   for (const E_TransferSyntax syntax : {EXS_LittleEndianExplicit, EXS_LittleEndianImplicit,
                                         EXS_BigEndianExplicit, EXS_DeflatedLittleEndianExplicit}) {
     const Stack stack = read(file_of(three_frames(), syntax));
-    ASSERT_THAT(heights(stack), ElementsAre(0, 4, 8));
+    ASSERT_THAT(heights_of(stack), ElementsAre(0, 4, 8));
     expect_mask(stack.slices[0], "organ", bars({3}));
     expect_mask(stack.slices[1], "organ", bars({0, 2, 4}));
     expect_mask(stack.slices[2], "organ", bars({1, 2}));
@@ -206,20 +203,20 @@ TEST(Seg, AFrameThatIsLeftOutIsAnEmptySlice) {
   MadeSeg made;
   made.frames = {{0, 1, bars({1})}, {4, 1, bars({1})}, {12, 1, bars({1})}};
   const Stack stack = read(made);
-  ASSERT_THAT(heights(stack), ElementsAre(0, 4, 8, 12));
+  ASSERT_THAT(heights_of(stack), ElementsAre(0, 4, 8, 12));
   EXPECT_TRUE(stack.slices[2].contours.empty());
 }
 
 TEST(Seg, AWideGapIsLeftOpenByASliceAtEitherEnd) {
   MadeSeg made;
   made.frames = {{0, 1, bars({1})}, {4e6, 1, bars({1})}};
-  EXPECT_THAT(heights(read(made)), ElementsAre(0, 4, 4e6 - 4, 4e6));
+  EXPECT_THAT(heights_of(read(made)), ElementsAre(0, 4, 4e6 - 4, 4e6));
 }
 
 TEST(Seg, DistancesThatAreNoMultiplesAreKept) {
   MadeSeg made;
   made.frames = {{0, 1, bars({1})}, {5, 1, bars({1})}, {11.5, 1, bars({1})}};
-  EXPECT_THAT(heights(read(made)), ElementsAre(0, 5, 11.5));
+  EXPECT_THAT(heights_of(read(made)), ElementsAre(0, 5, 11.5));
 }
 
 TEST(Seg, AThicknessIsADistanceOnlyWhereSomePlanesAreSoFarApart) {
@@ -227,9 +224,9 @@ TEST(Seg, AThicknessIsADistanceOnlyWhereSomePlanesAreSoFarApart) {
   made.spacing = "";
   made.thickness = "2";
   made.frames = {{0, 1, bars({1})}, {4, 1, bars({1})}, {8, 1, bars({1})}};
-  EXPECT_THAT(heights(read(made)), ElementsAre(0, 4, 8));
+  EXPECT_THAT(heights_of(read(made)), ElementsAre(0, 4, 8));
   made.frames.push_back({10, 1, bars({1})});
-  EXPECT_THAT(heights(read(made)), ElementsAre(0, 2, 4, 6, 8, 10));
+  EXPECT_THAT(heights_of(read(made)), ElementsAre(0, 2, 4, 6, 8, 10));
 }
 
 TEST(Seg, SegmentsMayOverlapAndHaveNamesColoursAndCategories) {
@@ -237,7 +234,7 @@ TEST(Seg, SegmentsMayOverlapAndHaveNamesColoursAndCategories) {
   made.segments = {{2, "vessel", {65535, 32896, 32896}}, {1, "organ"}, {7, "absent"}};
   made.frames = {{4, 2, bars({2, 3})}, {0, 1, bars({1, 2})}, {4, 1, bars({1, 2})}};
   const Stack stack = read(made);
-  ASSERT_THAT(heights(stack), ElementsAre(0, 4));
+  ASSERT_THAT(heights_of(stack), ElementsAre(0, 4));
   expect_mask(stack.slices[0], "vessel", bars({}));
   expect_mask(stack.slices[1], "organ", bars({1, 2}));
   expect_mask(stack.slices[1], "vessel", bars({2, 3}));
@@ -279,7 +276,7 @@ TEST(Seg, ALabelMapHasABackgroundThatIsNone) {
     for (std::size_t row = 0; row < rows; ++row) pixels[row * columns + 3] = second;
     made.frames = {{4, 0, pixels}, {0, 0, bars({2})}};
     const Stack stack = read(made);
-    ASSERT_THAT(heights(stack), ElementsAre(0, 4));
+    ASSERT_THAT(heights_of(stack), ElementsAre(0, 4));
     expect_mask(stack.slices[0], "organ", bars({2}));
     expect_mask(stack.slices[1], "organ", bars({1}));
     expect_mask(stack.slices[1], "bone", bars({3}));

@@ -10,6 +10,7 @@
 
 #include "io/stack.h"
 #include "tests/io/images/made_png.h"
+#include "tests/io/images/spaced.h"
 #include "tests/io/volumes/masks.h"
 
 namespace loft::io {
@@ -24,8 +25,7 @@ using testing::labels_in;
 using testing::MadePng;
 using ::testing::Not;
 using testing::number_as_name;
-
-const ReadOptions spaced{.spacing = Vec3{2, 3, 5}};
+using testing::spaced;
 
 Stack read(const std::vector<MadePng>& made, const ReadOptions& options = spaced) {
   std::vector<std::string> files;
@@ -38,14 +38,16 @@ Stack read(const std::vector<MadePng>& made, const ReadOptions& options = spaced
 std::string problem(const std::vector<MadePng>& made, const ReadOptions& options = spaced) {
   return testing::message_of<InputError>([&] { static_cast<void>(read(made, options)); });
 }
-std::string problem(std::string_view bytes) { return testing::problem(read_png, bytes, spaced); }
+std::string png_problem(std::string_view bytes) {
+  return testing::problem(read_png, bytes, spaced);
+}
 
 /// 3 x 2 pixels of which (1, 0) is 1 and (2, 1) is 2.
 MadePng image() { return {.samples = {0, 1, 0, 0, 0, 2}}; }
-Stack expected() { return read({image(), image()}); }
+Stack stack_of_images() { return read({image(), image()}); }
 
 TEST(Png, ImagesAreSlicesAndRowsRunAlongY) {
-  const Stack stack = expected();
+  const Stack stack = stack_of_images();
   ASSERT_EQ(stack.slices.size(), 2U);
   EXPECT_EQ(stack.slices[1].z - stack.slices[0].z, 5);
   EXPECT_TRUE(encloses(stack.slices[0], "1", {2, 0}));
@@ -117,7 +119,7 @@ MadePng of_palette() {
 
 TEST(Png, PlacesInAPaletteAreLabelsOfItsColours) {
   const Stack stack = read({of_palette(), of_palette()});
-  EXPECT_EQ(stack.slices, expected().slices);
+  EXPECT_EQ(stack.slices, stack_of_images().slices);
   EXPECT_EQ(stack.find_label("1")->colour, (Colour{16, 32, 48}));
   EXPECT_EQ(stack.find_label("2")->colour, (Colour{255, 0, 0}));
   MadePng clear = of_palette();
@@ -215,7 +217,7 @@ TEST(Png, SoftEdgesAreLabelsUnlessALevelIsGivenAndSaid) {
   double most = 0;
   for (const cdt::Point& point : stack.slices[0].contours[0].points) most = std::max(most, point.x);
   EXPECT_NEAR(most, right, 1e-12);
-  EXPECT_THAT(expected().notes, Not(Contains(HasSubstr("--level"))));
+  EXPECT_THAT(stack_of_images().notes, Not(Contains(HasSubstr("--level"))));
 }
 
 TEST(Png, ALevelIsNoneOfColours) {
@@ -243,20 +245,20 @@ TEST(Png, SizesThatAreMoreThanTheFileAreRefusedBeforeMemoryIsTaken) {
         std::endian::big);
     return bytes.substr(0, 12) + checked + sum + bytes.substr(33);
   };
-  EXPECT_THAT(problem(claims(20000, 20000)), HasSubstr("which so small a file cannot hold"));
-  EXPECT_NE(problem(claims(0x7fffffff, 0x7fffffff)), "nothing");
-  EXPECT_NE(problem(claims(0x80000000, 1)), "nothing");
-  EXPECT_NE(problem(claims(0, 1)), "nothing");
+  EXPECT_THAT(png_problem(claims(20000, 20000)), HasSubstr("which so small a file cannot hold"));
+  EXPECT_NE(png_problem(claims(0x7fffffff, 0x7fffffff)), "nothing");
+  EXPECT_NE(png_problem(claims(0x80000000, 1)), "nothing");
+  EXPECT_NE(png_problem(claims(0, 1)), "nothing");
 }
 
 TEST(Png, DamageIsNamedAndNothingIsPrinted) {
   ::testing::internal::CaptureStderr();
   const std::string good = image().bytes();
-  EXPECT_THAT(problem("II*"), HasSubstr("a.file: byte 0: is no PNG"));
+  EXPECT_THAT(png_problem("II*"), HasSubstr("a.file: byte 0: is no PNG"));
   for (std::size_t i = 8; i < good.size(); ++i) {
     std::string bad = good;
     bad[i] = static_cast<char>(bad[i] ^ 0x55);
-    EXPECT_THAT(problem(bad), ::testing::AnyOf(HasSubstr("a.file"), "nothing")) << i;
+    EXPECT_THAT(png_problem(bad), ::testing::AnyOf(HasSubstr("a.file"), "nothing")) << i;
   }
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
@@ -264,7 +266,7 @@ TEST(Png, DamageIsNamedAndNothingIsPrinted) {
 TEST(Png, IsRefusedCutOffAnywhere) {
   const std::string good = of_palette().bytes();
   for (std::size_t size = 0; size < good.size(); ++size)
-    EXPECT_THAT(problem(good.substr(0, size)), HasSubstr("a.file: byte ")) << size;
+    EXPECT_THAT(png_problem(good.substr(0, size)), HasSubstr("a.file: byte ")) << size;
 }
 
 }  // namespace

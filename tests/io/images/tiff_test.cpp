@@ -11,6 +11,7 @@
 
 #include "io/stack.h"
 #include "tests/io/images/made_tiff.h"
+#include "tests/io/images/spaced.h"
 #include "tests/io/volumes/masks.h"
 
 namespace loft::io {
@@ -24,19 +25,18 @@ using ::testing::HasSubstr;
 using testing::MadePage;
 using testing::number_as_name;
 using testing::read;
+using testing::spaced;
 using testing::tiff_of;
-
-const ReadOptions spaced{.spacing = Vec3{2, 3, 5}};
+using testing::two_label_slice;
 
 Stack read_spaced(std::string_view bytes) { return read(read_tiff, bytes, spaced); }
-std::string problem(std::string_view bytes, const ReadOptions& options = spaced) {
+std::string tiff_problem(std::string_view bytes, const ReadOptions& options = spaced) {
   return testing::problem(read_tiff, bytes, options);
 }
 
 /// Pages of 3 x 2 pixels of which (1, 0) is 1 and (2, 1) is 2.
-const std::string pixels("\0\1\0\0\0\2", 6);
-MadePage page() { return {.pixels = pixels}; }
-Stack expected() { return read_spaced(tiff_of({page(), page()})); }
+MadePage page() { return {.pixels = two_label_slice}; }
+Stack stack_of_pages() { return read_spaced(tiff_of({page(), page()})); }
 
 /// With ImageJ's description of two slices in the first page.
 std::vector<MadePage> of_image_j(const std::string& lines, double resolution = 2) {
@@ -47,7 +47,7 @@ std::vector<MadePage> of_image_j(const std::string& lines, double resolution = 2
 }
 
 TEST(Tiff, PagesAreSlicesAndRowsRunAlongY) {
-  const Stack stack = expected();
+  const Stack stack = stack_of_pages();
   ASSERT_EQ(stack.slices.size(), 2U);
   EXPECT_EQ(stack.slices[1].z - stack.slices[0].z, 5);
   EXPECT_TRUE(encloses(stack.slices[0], "1", {2, 0}));
@@ -77,9 +77,9 @@ TEST(Tiff, EveryTypeOfNumberIsRead) {
   const auto expect = [](auto number, std::uint16_t format) {
     for (const std::endian order : {std::endian::little, std::endian::big}) {
       MadePage made{.bits = 8 * sizeof(number), .format = format};
-      for (const char label : pixels)
+      for (const char label : two_label_slice)
         append(made.pixels, static_cast<decltype(number)>(label), order);
-      EXPECT_EQ(read_spaced(tiff_of({made, made}, order)), expected())
+      EXPECT_EQ(read_spaced(tiff_of({made, made}, order)), stack_of_pages())
           << made.bits << ' ' << format;
     }
   };
@@ -97,9 +97,9 @@ TEST(Tiff, EveryTypeOfNumberIsRead) {
 
 TEST(Tiff, PixelsOfLessThanAByteBeginWithItsHighestBits) {
   const MadePage two{.bits = 2, .pixels = {"\x10\x08", 2}};
-  EXPECT_EQ(read_spaced(tiff_of({two, two})), expected());
+  EXPECT_EQ(read_spaced(tiff_of({two, two})), stack_of_pages());
   const MadePage four{.bits = 4, .pixels = {"\x01\x00\x00\x20", 4}};
-  EXPECT_EQ(read_spaced(tiff_of({four, four})), expected());
+  EXPECT_EQ(read_spaced(tiff_of({four, four})), stack_of_pages());
   const MadePage one{.bits = 1, .pixels = {"\x40\x20", 2}};
   const Stack stack = read_spaced(tiff_of({one, one}));
   EXPECT_TRUE(encloses(stack.slices[0], "1", {2, 0}));
@@ -200,18 +200,18 @@ TEST(Tiff, AResolutionGivesTheDistanceThatWasMeant) {
 }
 
 TEST(Tiff, WithoutTheDistanceOfSlicesItIsRefused) {
-  EXPECT_THAT(problem(tiff_of({page(), page()}), {}), HasSubstr("--spacing x,y,z"));
-  EXPECT_THAT(problem(tiff_of(of_image_j("unit=micron\n", 4)), {}),
+  EXPECT_THAT(tiff_problem(tiff_of({page(), page()}), {}), HasSubstr("--spacing x,y,z"));
+  EXPECT_THAT(tiff_problem(tiff_of(of_image_j("unit=micron\n", 4)), {}),
               HasSubstr("its pixels are 0.25 (x) and 0.25 (y) um apart (ImageJ leaves out a "
                         "distance of 1); give all distances with --spacing x,y,z"));
-  EXPECT_THAT(problem(tiff_of(of_image_j("spacing=0\nunit=micron\n", 4)), {}),
+  EXPECT_THAT(tiff_problem(tiff_of(of_image_j("spacing=0\nunit=micron\n", 4)), {}),
               HasSubstr("--spacing"));
-  EXPECT_THAT(problem(tiff_of(of_image_j("spacing=3\n", 0)), {}),
+  EXPECT_THAT(tiff_problem(tiff_of(of_image_j("spacing=3\n", 0)), {}),
               HasSubstr("how far its pixels are apart"));
   MadePage inches = page();
   inches.x_resolution = inches.y_resolution = 254;
   inches.resolution_unit = 2;
-  EXPECT_THAT(problem(tiff_of({inches}), {}), HasSubstr("0.1 (x) and 0.1 (y) mm apart"));
+  EXPECT_THAT(tiff_problem(tiff_of({inches}), {}), HasSubstr("0.1 (x) and 0.1 (y) mm apart"));
 }
 
 TEST(Tiff, ASpacingThatIsGivenWins) {
@@ -228,7 +228,7 @@ std::string without_pages(std::endian order, std::size_t images) {
   made.y_resolution = 1.0 / 3;
   std::string more;
   for (std::size_t image = 0; image < images; ++image)
-    for (const char label : pixels)
+    for (const char label : two_label_slice)
       append(image == 0 ? made.pixels : more, static_cast<std::uint16_t>(label), order);
   return tiff_of({made}, order) + more;
 }
@@ -242,13 +242,15 @@ TEST(Tiff, ImageJWritesOneDirectoryForMoreThanFourGigabytes) {
       EXPECT_TRUE(encloses(slice, "2", {4, 3}));
       EXPECT_EQ(slice.contours.size(), 2U);
     }
-    EXPECT_THAT(problem(without_pages(order, 2)), HasSubstr("its description says 3 images"));
+    EXPECT_THAT(tiff_problem(without_pages(order, 2)), HasSubstr("its description says 3 images"));
   }
 }
 
 TEST(Tiff, ChannelsAndTimesAreRefused) {
-  EXPECT_THAT(problem(tiff_of(of_image_j("channels=2\nspacing=2\n"))), HasSubstr("2 channels"));
-  EXPECT_THAT(problem(tiff_of(of_image_j("frames=2\nspacing=2\n"))), HasSubstr("2 points of time"));
+  EXPECT_THAT(tiff_problem(tiff_of(of_image_j("channels=2\nspacing=2\n"))),
+              HasSubstr("2 channels"));
+  EXPECT_THAT(tiff_problem(tiff_of(of_image_j("frames=2\nspacing=2\n"))),
+              HasSubstr("2 points of time"));
 }
 
 std::vector<MadePage> of_ome(const std::string& attributes) {
@@ -276,14 +278,15 @@ TEST(Tiff, OmeSaysDistancesEachInItsUnit) {
 }
 
 TEST(Tiff, OmeWithoutTheDistanceOfSlicesOrWithChannelsIsRefused) {
-  EXPECT_THAT(problem(tiff_of(of_ome("PhysicalSizeX=\"0.5\" PhysicalSizeY=\"0.5\"")), {}),
+  EXPECT_THAT(tiff_problem(tiff_of(of_ome("PhysicalSizeX=\"0.5\" PhysicalSizeY=\"0.5\"")), {}),
               HasSubstr("--spacing"));
-  EXPECT_THAT(problem(tiff_of(of_ome("PhysicalSizeX=\"1\" PhysicalSizeY=\"1\" PhysicalSizeZ=\"2\" "
-                                     "PhysicalSizeZUnit=\"reference frame\"")),
-                      {}),
-              HasSubstr("--spacing"));
-  EXPECT_THAT(problem(tiff_of(of_ome("SizeC=\"3\""))), HasSubstr("3 channels"));
-  EXPECT_THAT(problem(tiff_of(of_ome("SizeT=\"4\""))), HasSubstr("4 points of time"));
+  EXPECT_THAT(
+      tiff_problem(tiff_of(of_ome("PhysicalSizeX=\"1\" PhysicalSizeY=\"1\" PhysicalSizeZ=\"2\" "
+                                  "PhysicalSizeZUnit=\"reference frame\"")),
+                   {}),
+      HasSubstr("--spacing"));
+  EXPECT_THAT(tiff_problem(tiff_of(of_ome("SizeC=\"3\""))), HasSubstr("3 channels"));
+  EXPECT_THAT(tiff_problem(tiff_of(of_ome("SizeT=\"4\""))), HasSubstr("4 points of time"));
 }
 
 TEST(Tiff, LabelsHaveTheColoursOfAPalette) {
@@ -294,7 +297,7 @@ TEST(Tiff, LabelsHaveTheColoursOfAPalette) {
   made.palette[1] = 0x8000;
   made.palette[256 + 2] = 0xFFFF;
   const Stack stack = read_spaced(tiff_of({made, made}));
-  EXPECT_EQ(stack.slices, expected().slices);
+  EXPECT_EQ(stack.slices, stack_of_pages().slices);
   EXPECT_EQ(stack.find_label("1")->colour, (Colour{128, 0, 0}));
   EXPECT_EQ(stack.find_label("2")->colour, (Colour{0, 255, 0}));
   EXPECT_EQ(stack.labels.size(), 2U);
@@ -319,35 +322,35 @@ TEST(Tiff, WhatIsClearIsNoLabel) {
   EXPECT_EQ(testing::labels_in(stack.slices[0]), (std::vector<std::string>{"#ff0000", "#010203"}));
   EXPECT_FALSE(encloses(stack.slices[0], "#ff0000", {0, 0}));
   MadePage grey{.samples = 2, .pixels = {"\1\0\1\1\1\0\1\0\1\0\2\1", 12}, .extra_samples = {2}};
-  EXPECT_EQ(read_spaced(tiff_of({grey, grey})), expected());
+  EXPECT_EQ(read_spaced(tiff_of({grey, grey})), stack_of_pages());
 }
 
 TEST(Tiff, WhereZeroIsWhiteItIsStillTheBackground) {
   MadePage made = page();
   made.ink = 0;
-  EXPECT_EQ(read_spaced(tiff_of({made, made})), expected());
+  EXPECT_EQ(read_spaced(tiff_of({made, made})), stack_of_pages());
 }
 
 TEST(Tiff, PreviewsAreLeftOut) {
   MadePage preview{.columns = 1, .rows = 1, .pixels = {"\7", 1}, .kind = 1};
-  EXPECT_EQ(read_spaced(tiff_of({page(), preview, page()})), expected());
-  EXPECT_THAT(problem(tiff_of({preview})), HasSubstr("has previews or masks only"));
+  EXPECT_EQ(read_spaced(tiff_of({page(), preview, page()})), stack_of_pages());
+  EXPECT_THAT(tiff_problem(tiff_of({preview})), HasSubstr("has previews or masks only"));
 }
 
 TEST(Tiff, PagesOfOtherSizesAreRefused) {
-  MadePage wide{.columns = 6, .rows = 1, .pixels = pixels};
-  EXPECT_THAT(problem(tiff_of({page(), wide})),
+  MadePage wide{.columns = 6, .rows = 1, .pixels = two_label_slice};
+  EXPECT_THAT(tiff_problem(tiff_of({page(), wide})),
               HasSubstr("a.file: page 2: is of 6 x 1 pixels, a.file: page 1 of 3 x 2"));
 }
 
 TEST(Tiff, PackingsThatChangeLabelsAreRefusedByName) {
   MadePage made = page();
   made.compression = 7;
-  EXPECT_THAT(problem(tiff_of({made})), HasSubstr("page 1: is compressed by JPEG"));
+  EXPECT_THAT(tiff_problem(tiff_of({made})), HasSubstr("page 1: is compressed by JPEG"));
   made.compression = 4;
-  EXPECT_THAT(problem(tiff_of({made})), HasSubstr("fax group 4"));
+  EXPECT_THAT(tiff_problem(tiff_of({made})), HasSubstr("fax group 4"));
   made.compression = 12345;
-  EXPECT_THAT(problem(tiff_of({made})), HasSubstr("12345"));
+  EXPECT_THAT(tiff_problem(tiff_of({made})), HasSubstr("12345"));
 }
 
 TEST(Tiff, SizesThatAreMoreThanTheFileAreRefusedBeforeMemoryIsTaken) {
@@ -355,35 +358,37 @@ TEST(Tiff, SizesThatAreMoreThanTheFileAreRefusedBeforeMemoryIsTaken) {
     MadePage made = page();
     made.compression = compression;
     made.columns = made.rows = 0x7fffffff;
-    EXPECT_NE(problem(tiff_of({made})), "nothing");
+    EXPECT_NE(tiff_problem(tiff_of({made})), "nothing");
     made.columns = made.rows = 30000;
-    EXPECT_THAT(problem(tiff_of({made})), HasSubstr("more than the file can hold"));
+    EXPECT_THAT(tiff_problem(tiff_of({made})), HasSubstr("more than the file can hold"));
   }
 }
 
 TEST(Tiff, SaysWhatIsWrong) {
-  EXPECT_THAT(problem("II*\0garbage"), HasSubstr("a.file: "));
-  EXPECT_THAT(problem("P5\n"), HasSubstr("a.file: is no TIFF"));
-  MadePage made{.samples = 2, .pixels = pixels + pixels};
-  EXPECT_THAT(problem(tiff_of({made})), HasSubstr("2 values where 1 is read"));
-  made = {.bits = 16, .format = 3, .pixels = pixels + pixels};
-  EXPECT_THAT(problem(tiff_of({made})), HasSubstr("16 bits and format 3"));
-  made = {.samples = 4, .ink = 5, .pixels = pixels + pixels + pixels + pixels};
-  EXPECT_THAT(problem(tiff_of({made})), HasSubstr("photometric 5"));
+  EXPECT_THAT(tiff_problem("II*\0garbage"), HasSubstr("a.file: "));
+  EXPECT_THAT(tiff_problem("P5\n"), HasSubstr("a.file: is no TIFF"));
+  MadePage made{.samples = 2, .pixels = two_label_slice + two_label_slice};
+  EXPECT_THAT(tiff_problem(tiff_of({made})), HasSubstr("2 values where 1 is read"));
+  made = {.bits = 16, .format = 3, .pixels = two_label_slice + two_label_slice};
+  EXPECT_THAT(tiff_problem(tiff_of({made})), HasSubstr("16 bits and format 3"));
+  made = {.samples = 4,
+          .ink = 5,
+          .pixels = two_label_slice + two_label_slice + two_label_slice + two_label_slice};
+  EXPECT_THAT(tiff_problem(tiff_of({made})), HasSubstr("photometric 5"));
 }
 
 TEST(Tiff, DirectoriesThatLeadBackAreRefused) {
   testing::TiffWriter writer(std::endian::little);
   writer.add(page());
   writer.add(page());
-  EXPECT_THAT(problem(writer.file(8)), HasSubstr("a.file: page 3 cannot be read"));
+  EXPECT_THAT(tiff_problem(writer.file(8)), HasSubstr("a.file: page 3 cannot be read"));
 }
 
 TEST(Tiff, NothingIsPrinted) {
   ::testing::internal::CaptureStderr();
   const std::string good = written(std::vector<int>(1400, 1), {COMPRESSION_LZW}, false, "w");
   for (std::size_t size = 4; size < good.size(); size += 7)
-    static_cast<void>(problem(good.substr(0, size)));
+    static_cast<void>(tiff_problem(good.substr(0, size)));
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 

@@ -17,24 +17,24 @@ using testing::Folder;
 using testing::message_of;
 
 /// Slices at 0, 2.5 and 5, with two contours each.
-std::vector<Slice> stack() {
+std::vector<Slice> three_slices() {
   const Contour triangle{{{0, 0}, {1, 0}, {0, 1}}, ""};
   std::vector<Slice> slices;
   for (const double z : {0.0, 2.5, 5.0}) slices.push_back({z, {triangle, triangle}});
   return slices;
 }
 
-std::vector<LinkOrder> read(const std::string& text) {
+std::vector<LinkOrder> orders_in(const std::string& text) {
   std::istringstream in(text);
-  return read_links_json(in, "links.ndjson", stack());
+  return read_links_json(in, "links.ndjson", three_slices());
 }
 
-std::string problem(const std::string& text) {
-  return message_of<InputError>([&] { static_cast<void>(read(text)); });
+std::string problem_of_orders(const std::string& text) {
+  return message_of<InputError>([&] { static_cast<void>(orders_in(text)); });
 }
 
 TEST(LinksJson, NamesContoursByIndexOrHeight) {
-  const auto orders = read(
+  const auto orders = orders_in(
       "\xEF\xBB\xBF{\"from\": [0, 1], \"to\": [1, 0]}\r\n\n"
       "{\"to\": {\"z\": 2.5, \"contour\": 1}, \"link\": false, \"from\": [2, 0], \"by\": 7}");
   ASSERT_EQ(orders.size(), 2U);
@@ -46,7 +46,7 @@ TEST(LinksJson, NamesContoursByIndexOrHeight) {
   EXPECT_EQ(orders[1].to, (ContourId{1, 1}));
   EXPECT_FALSE(orders[1].is_link);
   EXPECT_EQ(orders[1].place, "links.ndjson:3");
-  EXPECT_TRUE(read("").empty());
+  EXPECT_TRUE(orders_in("").empty());
 }
 
 TEST(LinksJson, NamesEveryProblemWithItsLine) {
@@ -71,8 +71,8 @@ TEST(LinksJson, NamesEveryProblemWithItsLine) {
       {R"({"from": [0, 0], "to": [2, 0]})",
        "slice 0 contour 0 and slice 2 contour 0 are not in neighbouring slices"}};
   for (const auto& [line, expected] : cases)
-    EXPECT_EQ(problem("\n" + line), "links.ndjson:2: " + expected) << line;
-  EXPECT_EQ(problem("{}\n{\"from\": [0, 0], \"to\": [7, 0]}"),
+    EXPECT_EQ(problem_of_orders("\n" + line), "links.ndjson:2: " + expected) << line;
+  EXPECT_EQ(problem_of_orders("{}\n{\"from\": [0, 0], \"to\": [7, 0]}"),
             "links.ndjson:1: \"from\" is missing; write [slice, contour] or {\"z\": ..., "
             "\"contour\": ...}\n"
             "links.ndjson:1: \"to\" is missing; write [slice, contour] or {\"z\": ..., "
@@ -89,16 +89,17 @@ TEST(LinksJson, MisspeltKeysAreNamed) {
       {R"({"from": {"z": 0, "contours": 1}, "to": [1, 0]})",
        R"("from": unknown key 'contours'; write "contour")"},
   };
-  for (const auto& [line, words] : cases) EXPECT_EQ(problem(line), "links.ndjson:1: " + words);
+  for (const auto& [line, words] : cases)
+    EXPECT_EQ(problem_of_orders(line), "links.ndjson:1: " + words);
 }
 
 TEST(LinksJson, AFileThatIsNotThereIsNamed) {
   const Folder folder;
   const auto path = folder / "none.ndjson";
   const std::string message =
-      message_of<FileError>([&] { static_cast<void>(read_links_json(path, stack())); });
+      message_of<FileError>([&] { static_cast<void>(read_links_json(path, three_slices())); });
   EXPECT_NE(message.find("none.ndjson"), std::string::npos) << message;
-  EXPECT_THROW(static_cast<void>(read_links_json(folder / "", stack())), FileError);
+  EXPECT_THROW(static_cast<void>(read_links_json(folder / "", three_slices())), FileError);
 }
 
 }  // namespace

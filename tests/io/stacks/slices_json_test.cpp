@@ -19,13 +19,13 @@ namespace {
 using testing::Folder;
 using testing::message_of;
 
-std::vector<Slice> read(const std::string& text) {
+std::vector<Slice> slices_in(const std::string& text) {
   std::istringstream in(text);
   return read_slices_json(in, "stack.ndjson");
 }
 
-std::string problem(const std::string& text) {
-  return message_of<InputError>([&] { static_cast<void>(read(text)); });
+std::string problem_of_slices(const std::string& text) {
+  return message_of<InputError>([&] { static_cast<void>(slices_in(text)); });
 }
 
 std::vector<Slice> random_stack(unsigned seed) {
@@ -50,34 +50,34 @@ TEST(SlicesJson, WhatIsWrittenIsReadBackExactly) {
     const std::vector<Slice> stack = random_stack(seed);
     std::ostringstream out;
     write_slices_json(out, stack);
-    EXPECT_EQ(read(out.str()), stack) << "seed " << seed;
+    EXPECT_EQ(slices_in(out.str()), stack) << "seed " << seed;
   }
 }
 
 TEST(SlicesJson, IgnoresWhatDoesNoHarm) {
   const std::vector<Slice> expected{{1, {{{{0, 0}, {1, 0}, {0, 1}}, ""}}}, {2, {}}};
-  EXPECT_EQ(read("\xEF\xBB\xBF{\"z\": 1, \"contours\": [[[0,0],[1,0],[0,1]]]}\r\n\r\n   \n"
-                 "{\"contours\": [], \"z\": 2.0, \"who\": {\"a\": [1, \"x\", null]}}"),
+  EXPECT_EQ(slices_in("\xEF\xBB\xBF{\"z\": 1, \"contours\": [[[0,0],[1,0],[0,1]]]}\r\n\r\n   \n"
+                      "{\"contours\": [], \"z\": 2.0, \"who\": {\"a\": [1, \"x\", null]}}"),
             expected);
-  EXPECT_EQ(read("{\"op\":\"insert\",\"z\":2,\"contours\":[]}").size(), 1U);
+  EXPECT_EQ(slices_in("{\"op\":\"insert\",\"z\":2,\"contours\":[]}").size(), 1U);
 }
 
 TEST(SlicesJson, KeysThatAreNearNoneOfOursAreIgnored) {
-  EXPECT_EQ(
-      problem(R"({"z":2,"contours":[],"x":1,"colours":1,"spacing":2,"label":"a","labels":[]})"),
-      "nothing");
+  EXPECT_EQ(problem_of_slices(
+                R"({"z":2,"contours":[],"x":1,"colours":1,"spacing":2,"label":"a","labels":[]})"),
+            "nothing");
 }
 
 TEST(SlicesJson, KeepsSmallContoursAndEqualHeights) {
   const auto stack =
-      read("{\"z\":1,\"contours\":[[],[[1,2]],[[1,2],[3,4]]]}\n{\"z\":1,\"contours\":[]}");
+      slices_in("{\"z\":1,\"contours\":[[],[[1,2]],[[1,2],[3,4]]]}\n{\"z\":1,\"contours\":[]}");
   ASSERT_EQ(stack.size(), 2U);
   ASSERT_EQ(stack[0].contours.size(), 3U);
   EXPECT_EQ(stack[0].contours[2].points.size(), 2U);
 }
 
 TEST(SlicesJson, LabelsMayComeBeforeTheirContours) {
-  const auto stack = read(R"({"labels":["heart","lung"],"z":1,"contours":[[],[]]})");
+  const auto stack = slices_in(R"({"labels":["heart","lung"],"z":1,"contours":[[],[]]})");
   EXPECT_EQ(stack[0].contours[0].label, "heart");
   EXPECT_EQ(stack[0].contours[1].label, "lung");
 }
@@ -142,13 +142,13 @@ TEST(SlicesJson, NamesLineSliceContourAndPoint) {
       {"[1]",
        "stack.ndjson:1: slice 0 expected a slice {\"z\": ..., \"contours\": [...]}, found a list"},
   };
-  for (const auto& [text, message] : cases) EXPECT_EQ(problem(text), message) << text;
+  for (const auto& [text, message] : cases) EXPECT_EQ(problem_of_slices(text), message) << text;
 }
 
 TEST(SlicesJson, GathersAllBadLinesButShowsTwenty) {
   std::string text;
   for (int i = 0; i < 25; ++i) text += "{}x\n";
-  const std::string message = problem(text);
+  const std::string message = problem_of_slices(text);
   EXPECT_EQ(std::ranges::count(message, '\n'), 20);
   EXPECT_TRUE(message.ends_with("\nstack.ndjson: and 5 more")) << message;
 }
@@ -159,7 +159,7 @@ TEST(SlicesJson, SurvivesEveryTruncation) {
   const std::string text = out.str();
   for (std::size_t size = 0; size < text.size(); ++size) {
     try {
-      static_cast<void>(read(text.substr(0, size)));
+      static_cast<void>(slices_in(text.substr(0, size)));
     } catch (const InputError&) {
       continue;
     }

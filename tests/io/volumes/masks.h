@@ -106,6 +106,10 @@ inline std::vector<int> random_labels(std::size_t count, int labels, std::mt1993
   return pixels;
 }
 
+/// A slice of 3 x 2 pixels of a byte, of which (1, 0) is 1 and (2, 1) is 2; and two of them.
+inline const std::string two_label_slice("\0\1\0\0\0\2", 6);
+inline const std::string two_label_pixels = two_label_slice + two_label_slice;
+
 /// The volume that the tests of NRRD and MetaImage write, in millimetres: its pixels are where the
 /// header puts them.
 inline void expect_two_labels_in_place(const Stack& stack) {

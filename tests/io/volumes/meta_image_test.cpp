@@ -27,12 +27,13 @@ using testing::Folder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using testing::number_as_name;
+using testing::problem;
 using testing::read;
-
-std::string problem(std::string_view bytes) { return testing::problem(read_meta_image, bytes); }
+using testing::two_label_pixels;
+using testing::two_label_slice;
 
 /// Fields of 3 x 2 x 2 pixels, of which (1, 0) is 1 and (2, 1) is 2 in both slices.
-struct Made {
+struct MadeMetaImage {
   std::string type = "MET_UCHAR";
   std::string size = "3 2 2";
   std::string place =
@@ -48,10 +49,8 @@ struct Made {
     return header("LOCAL") + content;
   }
 };
-const std::string slice_pixels("\0\1\0\0\0\2", 6);
-const std::string pixels = slice_pixels + slice_pixels;
 
-Stack expected() { return read(read_meta_image, Made().local(pixels)); }
+Stack expected() { return read(read_meta_image, MadeMetaImage().local(two_label_pixels)); }
 
 Stack read_in(const Folder& folder, const std::string& header) {
   return read_meta_image({header, "a.mhd", folder / ""}, {});
@@ -67,19 +66,19 @@ TEST(MetaImage, PixelsLieWhereTheFileHasThem) {
 }
 
 TEST(MetaImage, RowsOfTheMatrixAreAxes) {
-  Made made;
+  MadeMetaImage made;
   // Columns run along y, rows along -x: as columns of the matrix they would run the other way.
   made.place = "Rotation = 0 1 0 -1 0 0 0 0 1\nPosition = 10 20 30\nElementSpacing = 2 3 5\n";
-  const Stack stack = read(read_meta_image, made.local(pixels));
+  const Stack stack = read(read_meta_image, made.local(two_label_pixels));
   EXPECT_FALSE(stack.frame);
   EXPECT_TRUE(encloses(stack.slices[0], "1", {10, 22}));
   EXPECT_TRUE(encloses(stack.slices[0], "2", {7, 24}));
 }
 
 TEST(MetaImage, TiltedAxesHaveAFrame) {
-  Made made;
+  MadeMetaImage made;
   made.place = "TransformMatrix = 1 0 0 0 0.6 0.8 0 -0.8 0.6\nElementSpacing = 2 3 5\n";
-  const Stack stack = read(read_meta_image, made.local(pixels));
+  const Stack stack = read(read_meta_image, made.local(two_label_pixels));
   ASSERT_TRUE(stack.frame);
   const Vec3 place = stack.frame->at({0, 3, 0});  // of the first pixel of the second row
   EXPECT_NEAR(place[1], 3 * 0.6, 1e-12);
@@ -93,7 +92,7 @@ TEST(MetaImage, OutlinesEncloseItsPixelsAndNoOthers) {
   const std::vector<int> labels = testing::random_labels(std::size_t{9} * 8 * 4, 4, random);
   std::string bytes;
   for (const int label : labels) append(bytes, static_cast<std::int16_t>(label), std::endian::big);
-  Made made{.type = "MET_SHORT", .size = "9 8 4", .place = "ElementSpacing = 2 3 5\n"};
+  MadeMetaImage made{.type = "MET_SHORT", .size = "9 8 4", .place = "ElementSpacing = 2 3 5\n"};
   made.more = "CompressedData = True\nBinaryDataByteOrderMSB = True\n";
   for (const Outline outline : {Outline::iso_lines, Outline::edges}) {
     const Stack stack = read(read_meta_image, made.local(deflated(bytes)), {.outline = outline});
@@ -104,12 +103,13 @@ TEST(MetaImage, OutlinesEncloseItsPixelsAndNoOthers) {
 TEST(MetaImage, EveryTypeOfNumberIsRead) {
   const auto bytes_of = [](auto number, std::endian order) {
     std::string bytes;
-    for (const char label : pixels) append(bytes, static_cast<decltype(number)>(label), order);
+    for (const char label : two_label_pixels)
+      append(bytes, static_cast<decltype(number)>(label), order);
     return bytes;
   };
   for (const std::endian order : {std::endian::little, std::endian::big}) {
     const auto expect = [&](const std::string& type, const std::string& bytes) {
-      Made made;
+      MadeMetaImage made;
       made.type = type;
       if (order == std::endian::big) made.more = "ElementByteOrderMSB = True\n";
       EXPECT_EQ(read(read_meta_image, made.local(bytes)), expected()) << type;
@@ -129,43 +129,45 @@ TEST(MetaImage, EveryTypeOfNumberIsRead) {
 }
 
 TEST(MetaImage, ZlibHasNoHeaderOfGzipAndItsSizeMayBeLeftOut) {
-  Made made;
+  MadeMetaImage made;
   made.more = "CompressedData = True\n";
-  EXPECT_EQ(read(read_meta_image, made.local(deflated(pixels))), expected());
-  made.more += "CompressedDataSize = " + std::to_string(deflated(pixels).size()) + '\n';
-  EXPECT_EQ(read(read_meta_image, made.local(deflated(pixels) + "behind")), expected());
+  EXPECT_EQ(read(read_meta_image, made.local(deflated(two_label_pixels))), expected());
+  made.more += "CompressedDataSize = " + std::to_string(deflated(two_label_pixels).size()) + '\n';
+  EXPECT_EQ(read(read_meta_image, made.local(deflated(two_label_pixels) + "behind")), expected());
   made.more = "CompressedData = True\nCompressedDataSize = 2147483648\n";
-  EXPECT_THAT(problem(made.local(deflated(pixels))), HasSubstr("it was cut off"));
+  EXPECT_THAT(problem(read_meta_image, made.local(deflated(two_label_pixels))),
+              HasSubstr("it was cut off"));
 }
 
 TEST(MetaImage, NumbersMayBeText) {
-  std::string file = Made().local("0 1 0 0 0 2\n0 1 0\r\n0 0 2\n");
+  std::string file = MadeMetaImage().local("0 1 0 0 0 2\n0 1 0\r\n0 0 2\n");
   file.replace(file.find("True"), 4, "False");
   EXPECT_EQ(read(read_meta_image, file), expected());
 }
 
 TEST(MetaImage, ALocalFileMayHaveAHeaderInFrontOfItsPixels) {
-  Made made;
+  MadeMetaImage made;
   made.more = "HeaderSize = 4\n";
-  EXPECT_EQ(read(read_meta_image, made.local("head" + pixels)), expected());
+  EXPECT_EQ(read(read_meta_image, made.local("head" + two_label_pixels)), expected());
 }
 
 TEST(MetaImage, PixelsMayBeInAFileBesideIt) {
   const Folder folder;
-  static_cast<void>(folder.write("a b.raw", pixels));
-  static_cast<void>(folder.write("a.zraw", deflated(pixels)));
-  EXPECT_EQ(read_in(folder, Made().header("a b.raw")).slices, expected().slices);
-  Made made;
+  static_cast<void>(folder.write("a b.raw", two_label_pixels));
+  static_cast<void>(folder.write("a.zraw", deflated(two_label_pixels)));
+  EXPECT_EQ(read_in(folder, MadeMetaImage().header("a b.raw")).slices, expected().slices);
+  MadeMetaImage made;
   made.more = "CompressedData = True\n";
   EXPECT_EQ(read_in(folder, made.header("a.zraw")).slices, expected().slices);
   for (const std::string file : {"../a b.raw", "/etc/passwd", "none.raw", "..", "."})
-    EXPECT_THAT(problem_in(folder, Made().header(file)), HasSubstr("ElementDataFile")) << file;
+    EXPECT_THAT(problem_in(folder, MadeMetaImage().header(file)), HasSubstr("ElementDataFile"))
+        << file;
 }
 
 TEST(MetaImage, AHeaderSizeOfMinusOneMeansTheLastOfTheFile) {
   const Folder folder;
-  static_cast<void>(folder.write("a.raw", "a head of any size" + pixels));
-  Made made;
+  static_cast<void>(folder.write("a.raw", "a head of any size" + two_label_pixels));
+  MadeMetaImage made;
   made.more = "HeaderSize = -1\n";
   EXPECT_EQ(read_in(folder, made.header("a.raw")).slices, expected().slices);
   static_cast<void>(folder.write("a.raw", "x"));
@@ -174,30 +176,33 @@ TEST(MetaImage, AHeaderSizeOfMinusOneMeansTheLastOfTheFile) {
 
 TEST(MetaImage, SlicesMayBeInAListOfFiles) {
   const Folder folder;
-  static_cast<void>(folder.write("low.raw", slice_pixels));
-  static_cast<void>(folder.write("high.raw", slice_pixels));
-  EXPECT_EQ(read_in(folder, Made().header("LIST") + "low.raw\r\nhigh.raw\r\n").slices,
+  static_cast<void>(folder.write("low.raw", two_label_slice));
+  static_cast<void>(folder.write("high.raw", two_label_slice));
+  EXPECT_EQ(read_in(folder, MadeMetaImage().header("LIST") + "low.raw\r\nhigh.raw\r\n").slices,
             expected().slices);
-  EXPECT_EQ(read_in(folder, Made().header("LIST 2D") + "low.raw\nhigh.raw").slices,
+  EXPECT_EQ(read_in(folder, MadeMetaImage().header("LIST 2D") + "low.raw\nhigh.raw").slices,
             expected().slices);
-  EXPECT_THAT(problem_in(folder, Made().header("LIST") + "low.raw\n"), HasSubstr("but has 1"));
-  EXPECT_THAT(problem_in(folder, Made().header("LIST") + "low.raw\nhigh.raw\nx.raw\n"),
+  EXPECT_THAT(problem_in(folder, MadeMetaImage().header("LIST") + "low.raw\n"),
+              HasSubstr("but has 1"));
+  EXPECT_THAT(problem_in(folder, MadeMetaImage().header("LIST") + "low.raw\nhigh.raw\nx.raw\n"),
               HasSubstr("but has more"));
-  EXPECT_THAT(problem_in(folder, Made().header("LIST") + "low.raw\nlow.raw\n"), HasSubstr("twice"));
-  EXPECT_THAT(problem_in(folder, Made().header("LIST 1D") + "low.raw\nhigh.raw\n"),
+  EXPECT_THAT(problem_in(folder, MadeMetaImage().header("LIST") + "low.raw\nlow.raw\n"),
+              HasSubstr("twice"));
+  EXPECT_THAT(problem_in(folder, MadeMetaImage().header("LIST 1D") + "low.raw\nhigh.raw\n"),
               HasSubstr("less than a slice"));
-  EXPECT_THAT(problem_in(folder, Made().header("LIST") + "low.raw\n/etc/passwd\n"),
+  EXPECT_THAT(problem_in(folder, MadeMetaImage().header("LIST") + "low.raw\n/etc/passwd\n"),
               HasSubstr("is not beside the header"));
 }
 
 TEST(MetaImage, SlicesMayBeInFilesByAPattern) {
   const Folder folder;
-  static_cast<void>(folder.write("s008.raw", slice_pixels));
-  static_cast<void>(folder.write("s010.raw", slice_pixels));
-  EXPECT_EQ(read_in(folder, Made().header("s%03d.raw 8 10 2")).slices, expected().slices);
-  EXPECT_THAT(problem_in(folder, Made().header("s%03d.raw 8 10 1")),
+  static_cast<void>(folder.write("s008.raw", two_label_slice));
+  static_cast<void>(folder.write("s010.raw", two_label_slice));
+  EXPECT_EQ(read_in(folder, MadeMetaImage().header("s%03d.raw 8 10 2")).slices, expected().slices);
+  EXPECT_THAT(problem_in(folder, MadeMetaImage().header("s%03d.raw 8 10 1")),
               HasSubstr("does not name the files of 2 slices"));
-  EXPECT_THAT(problem_in(folder, Made().header("s%03d.raw 9 11 2")), HasSubstr("'s009.raw'"));
+  EXPECT_THAT(problem_in(folder, MadeMetaImage().header("s%03d.raw 9 11 2")),
+              HasSubstr("'s009.raw'"));
 }
 
 TEST(MetaImage, PatternsAreNothingButANumber) {
@@ -213,19 +218,19 @@ TEST(MetaImage, PatternsAreNothingButANumber) {
 }
 
 TEST(MetaImage, AFourthAxisIsThatOfLayers) {
-  Made made;
+  MadeMetaImage made;
   made.dimensions = "4";
   made.size = "3 2 1 2";
   made.place =
       "TransformMatrix = 1 0 0 0 0 1 0 0 0 0 1 0 0 0 0 1\nOffset = 0 0 0 0\n"
       "ElementSpacing = 2 3 5 1\n";
-  const Stack stack = read(read_meta_image, made.local(pixels));
+  const Stack stack = read(read_meta_image, made.local(two_label_pixels));
   ASSERT_EQ(stack.slices.size(), 1U);
   EXPECT_EQ(stack.slices[0].contours.size(), 4U);
 }
 
 TEST(MetaImage, FloatsFromZeroToOneAreShares) {
-  Made made;
+  MadeMetaImage made;
   made.type = "MET_FLOAT";
   std::string bytes;
   for (const float share : {0.F, 0.75F, 0.F, 0.F, 0.F, 0.25F, 0.F, 1.F, 0.F, 0.F, 0.F, 0.F})
@@ -236,24 +241,25 @@ TEST(MetaImage, FloatsFromZeroToOneAreShares) {
 }
 
 TEST(MetaImage, SpacingIsAskedForWhereThereIsNone) {
-  Made made;
+  MadeMetaImage made;
   made.place = "";
-  EXPECT_THAT(problem(made.local(pixels)), HasSubstr("--spacing"));
+  EXPECT_THAT(problem(read_meta_image, made.local(two_label_pixels)), HasSubstr("--spacing"));
   made.place = "ElementSpacing = 2 3 0\n";
-  EXPECT_THAT(problem(made.local(pixels)), HasSubstr("--spacing"));
-  const Stack stack = read(read_meta_image, made.local(pixels), {.spacing = Vec3{1, 1, 4}});
+  EXPECT_THAT(problem(read_meta_image, made.local(two_label_pixels)), HasSubstr("--spacing"));
+  const Stack stack =
+      read(read_meta_image, made.local(two_label_pixels), {.spacing = Vec3{1, 1, 4}});
   EXPECT_EQ(stack.slices[1].z - stack.slices[0].z, 4);
 }
 
 TEST(MetaImage, SaysWhatIsWrong) {
-  const std::string good = Made().local(pixels);
+  const std::string good = MadeMetaImage().local(two_label_pixels);
   const auto with = [&](const std::string& what, const std::string& by) {
     std::string bad = good;
     bad.replace(bad.find(what), what.size(), by);
-    return problem(bad);
+    return problem(read_meta_image, bad);
   };
   EXPECT_EQ(with("3 2 2", "3 2 2"), "nothing");
-  EXPECT_THAT(problem("P5\n"), HasSubstr("line 1: 'P5'"));
+  EXPECT_THAT(problem(read_meta_image, "P5\n"), HasSubstr("line 1: 'P5'"));
   EXPECT_THAT(with("= Image", "= Tube"), HasSubstr("ObjectType"));
   EXPECT_THAT(with("NDims = 3", "NDims = 7"), HasSubstr("NDims"));
   EXPECT_THAT(with("3 2 2", "3 2"), HasSubstr("DimSize"));
@@ -270,19 +276,20 @@ TEST(MetaImage, SaysWhatIsWrong) {
 }
 
 TEST(MetaImage, PackedBytesTooFewForWhatIsClaimedAreRefusedBeforeMemoryIsTaken) {
-  Made made;
+  MadeMetaImage made;
   made.size = "60000 60000 60000";
   made.more = "CompressedData = True\n";
-  EXPECT_THAT(problem(made.local(deflated(pixels))), HasSubstr("cannot hold so many"));
+  EXPECT_THAT(problem(read_meta_image, made.local(deflated(two_label_pixels))),
+              HasSubstr("cannot hold so many"));
 }
 
 TEST(MetaImage, IsRefusedCutOffAnywhere) {
-  Made made;
+  MadeMetaImage made;
   made.more = "CompressedData = True\n";
-  testing::expect_no_cut_hurts(read_meta_image, made.local(deflated(pixels)));
-  testing::expect_no_cut_hurts(read_meta_image, Made().local(pixels));
-  const std::string good = Made().local(pixels);
-  EXPECT_NE(problem(good.substr(0, good.size() - 1)), "nothing");
+  testing::expect_no_cut_hurts(read_meta_image, made.local(deflated(two_label_pixels)));
+  testing::expect_no_cut_hurts(read_meta_image, MadeMetaImage().local(two_label_pixels));
+  const std::string good = MadeMetaImage().local(two_label_pixels);
+  EXPECT_NE(problem(read_meta_image, good.substr(0, good.size() - 1)), "nothing");
 }
 
 }  // namespace

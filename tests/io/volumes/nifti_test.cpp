@@ -20,16 +20,15 @@ namespace {
 using testing::append;
 using testing::gzipped;
 using ::testing::HasSubstr;
+using testing::problem;
 using testing::read;
-
-std::string problem(std::string_view bytes) { return testing::problem(read_nifti, bytes); }
 
 constexpr std::int16_t u8 = 2;
 constexpr std::int16_t i16 = 4;
 constexpr std::int16_t f32 = 16;
 
 /// A volume of 4 x 3 pixels in 2 slices; those that are not 0 lie in columns 1 and 2, row 1.
-struct Made {
+struct MadeNifti {
   bool is_second = false;
   std::endian order = std::endian::little;
   std::vector<std::int64_t> dim{3, 4, 3, 2};
@@ -138,7 +137,7 @@ Box box_of(const Slice& slice) {
 }
 
 /// With edges for outlines pixels reach half a pixel around their centres.
-Stack read_edges(const Made& made) {
+Stack read_edges(const MadeNifti& made) {
   ReadOptions options;
   options.outline = Outline::edges;
   return read(read_nifti, made.bytes(), options);
@@ -174,7 +173,7 @@ TEST(Nifti, WithoutFormsPixelsLieByTheirDistancesAlone) {
 }
 
 TEST(Nifti, AnSformWithACodeCountsBeforeAQform) {
-  Made made;
+  MadeNifti made;
   made.qform = 1;
   made.quatern = {0, 0, 0, 100, 200, 300};
   made.sform = 2;
@@ -186,7 +185,7 @@ TEST(Nifti, AnSformWithACodeCountsBeforeAQform) {
 }
 
 TEST(Nifti, AnSformOfCodeZeroDoesNotCount) {
-  Made made;
+  MadeNifti made;
   made.srow = {4, 0, 0, 10, 0, 6, 0, 20, 0, 0, 8, 30};
   expect_as_pixdim_says(read_edges(made));
   made.qform = 1;
@@ -197,7 +196,7 @@ TEST(Nifti, AnSformOfCodeZeroDoesNotCount) {
 }
 
 TEST(Nifti, AQformTurnsAndItsSignMirrorsSlices) {
-  Made made;
+  MadeNifti made;
   made.qform = 1;
   made.quatern = {0, 0, 1, 0, 0, 0};  // half a turn about z
   made.pixdim[0] = -1;
@@ -208,7 +207,7 @@ TEST(Nifti, AQformTurnsAndItsSignMirrorsSlices) {
 }
 
 TEST(Nifti, MirroredAxesStayWhereTheyAre) {
-  Made made;
+  MadeNifti made;
   made.sform = 1;
   made.srow = {-2, 0, 0, 0, 0, 3, 0, 0, 0, 0, 5, 0};
   const Stack stack = read_edges(made);
@@ -217,7 +216,7 @@ TEST(Nifti, MirroredAxesStayWhereTheyAre) {
 }
 
 TEST(Nifti, ObliqueSlicesHaveAFrameThatGivesTheWorldBack) {
-  Made made;
+  MadeNifti made;
   made.sform = 1;
   const float c = 0.8F;
   const float s = 0.6F;
@@ -236,7 +235,7 @@ TEST(Nifti, ObliqueSlicesHaveAFrameThatGivesTheWorldBack) {
 }
 
 TEST(Nifti, AFrameHasNoNumberThatOnlyRoundingLeft) {
-  Made made;
+  MadeNifti made;
   made.is_second = true;
   made.sform = 1;
   // The product of the two small ones is too small for a frame.
@@ -249,7 +248,7 @@ TEST(Nifti, AFrameHasNoNumberThatOnlyRoundingLeft) {
 TEST(Nifti, ASlopeOfZeroOrNoNumberIsNone) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const double slope : {0.0, nan, HUGE_VAL}) {
-    Made made;
+    MadeNifti made;
     made.slope = slope;
     made.intercept = 17;
     made.label = 3;
@@ -258,7 +257,7 @@ TEST(Nifti, ASlopeOfZeroOrNoNumberIsNone) {
 }
 
 TEST(Nifti, ASlopeMakesLabelsOfWhatIsWritten) {
-  Made made;
+  MadeNifti made;
   made.slope = 2;
   made.intercept = std::numeric_limits<double>::quiet_NaN();
   made.label = 3;
@@ -266,16 +265,16 @@ TEST(Nifti, ASlopeMakesLabelsOfWhatIsWritten) {
 }
 
 TEST(Nifti, LabelsMayBeWrittenAsFloats) {
-  Made made;
+  MadeNifti made;
   made.datatype = f32;
   made.label = 4;
   EXPECT_EQ(read_edges(made).labels.at(0).name, "4");
   made.label = 4.25;
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("pixel of value 4.25"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("pixel of value 4.25"));
 }
 
 TEST(Nifti, FloatsBetweenZeroAndOneAreShares) {
-  Made made;
+  MadeNifti made;
   made.datatype = f32;
   made.label = 0.75;
   EXPECT_EQ(read(read_nifti, made.bytes()).slices.at(0).contours.size(), 1U);
@@ -284,13 +283,13 @@ TEST(Nifti, FloatsBetweenZeroAndOneAreShares) {
 }
 
 TEST(Nifti, AFourthDimensionOfOneVolumeChangesNothing) {
-  Made made;
+  MadeNifti made;
   made.dim = {4, 4, 3, 2, 1};
   expect_as_pixdim_says(read_edges(made));
 }
 
 TEST(Nifti, SeveralVolumesAreLayersThatMayOverlap) {
-  Made made;
+  MadeNifti made;
   made.dim = {4, 4, 3, 2, 2};
   made.layers = 2;
   const Stack stack = read_edges(made);
@@ -302,7 +301,7 @@ TEST(Nifti, EitherVersionIsReadInEitherOrderOfBytes) {
   for (const bool is_second : {false, true}) {
     for (const std::endian order : {std::endian::little, std::endian::big}) {
       for (const std::int16_t datatype : {u8, i16, f32}) {
-        Made made;
+        MadeNifti made;
         made.is_second = is_second;
         made.order = order;
         made.datatype = datatype;
@@ -314,7 +313,7 @@ TEST(Nifti, EitherVersionIsReadInEitherOrderOfBytes) {
 }
 
 TEST(Nifti, GzipIsReadInOneMemberOrSeveral) {
-  const Made made;
+  const MadeNifti made;
   const Stack plain = read(read_nifti, made.bytes());
   for (const std::size_t members : {1U, 2U, 5U}) {
     const std::string packed = gzipped(made.bytes(), members);
@@ -324,7 +323,7 @@ TEST(Nifti, GzipIsReadInOneMemberOrSeveral) {
 }
 
 TEST(Nifti, ATableInTheHeadersExtensionNamesAndColoursLabels) {
-  Made made;
+  MadeNifti made;
   made.label = 7;
   made.xml =
       "<?xml version=\"1.0\"?><CaretExtension><LabelTable>"
@@ -346,44 +345,44 @@ TEST(Nifti, ATableInTheHeadersExtensionNamesAndColoursLabels) {
 
 TEST(Nifti, TruncatedAtAnyByteItIsRefused) {
   for (const bool is_second : {false, true}) {
-    Made made;
+    MadeNifti made;
     made.is_second = is_second;
     const std::string bytes = made.bytes();
     for (const std::string& file : {bytes, gzipped(bytes)}) {
       testing::expect_no_cut_hurts(read_nifti, file);
-      EXPECT_THAT(problem(file.substr(0, file.size() - 12)), HasSubstr("a.file: "));
+      EXPECT_THAT(problem(read_nifti, file.substr(0, file.size() - 12)), HasSubstr("a.file: "));
     }
   }
 }
 
 TEST(Nifti, SizesBeyondTheFileAreRefusedBeforeMemoryIsTaken) {
-  Made made;
+  MadeNifti made;
   made.dim = {3, 32767, 8191, 32767};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("cut off"));
-  EXPECT_THAT(problem(gzipped(made.bytes())), HasSubstr("a.file"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("cut off"));
+  EXPECT_THAT(problem(read_nifti, gzipped(made.bytes())), HasSubstr("a.file"));
   made.dim = {7, 32767, 32767, 32767, 32767, 32767, 32767, 32767};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("dim[6] is 32767"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("dim[6] is 32767"));
   made.is_second = true;
   made.dim = {3, std::int64_t{1} << 31, 1, 1};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("cut off"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("cut off"));
   made.dim = {3, std::int64_t{1} << 62, 1, 1};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("byte 16: dim[1]"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("byte 16: dim[1]"));
 }
 
 TEST(Nifti, SizesThatAreNoneAreNamed) {
-  Made made;
+  MadeNifti made;
   made.dim = {3, 4, 0, 2};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("byte 40: dim[2] is 0"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("byte 40: dim[2] is 0"));
   made.dim = {3, 4, -3, 2};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("byte 40: dim[2] is -3"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("byte 40: dim[2] is -3"));
   made.dim = {8, 4, 3, 2};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("dim[0] is 8"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("dim[0] is 8"));
 }
 
 TEST(Nifti, ADistanceOfZeroAsksForTheSpacing) {
-  Made made;
+  MadeNifti made;
   made.pixdim = {1, 2, 3, 0};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("--spacing x,y,z"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("--spacing x,y,z"));
   ReadOptions options;
   options.spacing = Vec3{2, 3, 5};
   options.outline = Outline::edges;
@@ -391,28 +390,28 @@ TEST(Nifti, ADistanceOfZeroAsksForTheSpacing) {
 }
 
 TEST(Nifti, MatricesThatCannotBeUsedAreRefused) {
-  Made made;
+  MadeNifti made;
   made.sform = 1;
   made.srow = {2, 2, 0, 0, 3, 3, 0, 0, 0, 0, 5, 0};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("is singular"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("is singular"));
   made.srow = {2, 0, 0, 0, 0, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0, 5, 0};
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("a number that is none"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("a number that is none"));
 }
 
 TEST(Nifti, AnotherMagicOrKindOfNumberIsNamedWithItsPlace) {
-  Made made;
+  MadeNifti made;
   made.magic = "abc";
   EXPECT_FALSE(begins_like_nifti(made.bytes()));
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("byte 344: the magic"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("byte 344: the magic"));
   made.magic = "";
   made.datatype = 128;
-  EXPECT_THAT(problem(made.bytes()), HasSubstr("byte 70: datatype 128"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr("byte 70: datatype 128"));
 }
 
 TEST(Nifti, APairWithoutItsPixelsSaysWhichFileIsMissing) {
-  Made made;
+  MadeNifti made;
   made.magic = "ni1";
-  EXPECT_THAT(problem(made.bytes()), HasSubstr(".img, which is not there"));
+  EXPECT_THAT(problem(read_nifti, made.bytes()), HasSubstr(".img, which is not there"));
 }
 
 }  // namespace

@@ -3,14 +3,14 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <zlib.h>
 
 #include <string>
 #include <vector>
 
 #include "io/bytes/file.h"
 #include "reconstruct/defect.h"
-#include "tests/io/shapes.h"
+#include "tests/io/bytes/gzipped.h"
+#include "tests/io/stacks/readers.h"
 #include "tests/io/volumes/masks.h"
 
 namespace loft::io {
@@ -18,16 +18,11 @@ namespace {
 
 using testing::encloses;
 using testing::Folder;
+using testing::gzipped;
 using ::testing::HasSubstr;
-using testing::message_of;
-
-Stack read(const std::string& bytes, const ReadOptions& options = {}) {
-  return read_nrrd({bytes, "a.nrrd"}, options);
-}
-
-std::string problem(const std::string& bytes) {
-  return message_of<InputError>([&] { static_cast<void>(read(bytes)); });
-}
+using testing::problem;
+using testing::read;
+using testing::two_label_pixels;
 
 /// Fields of 3 x 2 x 2 pixels, of which (1, 0) is 1 and (2, 1) is 2 in both slices.
 std::string fields(const std::string& directions = "(2,0,0) (0,3,0) (0,0,5)") {
@@ -35,51 +30,36 @@ std::string fields(const std::string& directions = "(2,0,0) (0,3,0) (0,0,5)") {
          "space: left-posterior-superior\nsizes: 3 2 2\nspace directions: " +
          directions + "\nkinds: domain domain domain\nspace origin: (10,20,30)\n";
 }
-const std::string pixels{"\0\1\0\0\0\2\0\1\0\0\0\2", 12};
-
-std::string gzip(const std::string& bytes) {
-  std::string packed(compressBound(bytes.size()) + 64, '\0');
-  z_stream stream{};
-  constexpr int as_gzip = 15 + 16;
-  EXPECT_EQ(deflateInit2(&stream, 6, Z_DEFLATED, as_gzip, 8, Z_DEFAULT_STRATEGY), Z_OK);
-  std::string input = bytes;
-  stream.next_in = reinterpret_cast<Bytef*>(input.data());
-  stream.avail_in = static_cast<uInt>(input.size());
-  stream.next_out = reinterpret_cast<Bytef*>(packed.data());
-  stream.avail_out = static_cast<uInt>(packed.size());
-  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
-  packed.resize(stream.total_out);
-  deflateEnd(&stream);
-  return packed;
-}
 
 TEST(Nrrd, PixelsLieWhereTheFileHasThem) {
-  const Stack stack = read(fields() + "encoding: raw\n\n" + pixels);
+  const Stack stack = read(read_nrrd, fields() + "encoding: raw\n\n" + two_label_pixels);
   testing::expect_two_labels_in_place(stack);
   ASSERT_FALSE(stack.notes.empty());
   EXPECT_THAT(stack.notes.front(), HasSubstr("LPS"));
 }
 
 TEST(Nrrd, EveryEncodingIsTheSame) {
-  const Stack expected = read(fields() + "encoding: raw\n\n" + pixels);
-  EXPECT_EQ(read(fields() + "encoding: gzip\n\n" + gzip(pixels)), expected);
-  EXPECT_EQ(read(fields() + "encoding: ascii\n\n0 1 0 0 0 2\n0 1 0 0 0 2\n"), expected);
-  EXPECT_EQ(read(fields() + "encoding: raw\nline skip: 1\nbyte skip: 2\n\nwords\nxx" + pixels),
+  const Stack expected = read(read_nrrd, fields() + "encoding: raw\n\n" + two_label_pixels);
+  EXPECT_EQ(read(read_nrrd, fields() + "encoding: gzip\n\n" + gzipped(two_label_pixels)), expected);
+  EXPECT_EQ(read(read_nrrd, fields() + "encoding: ascii\n\n0 1 0 0 0 2\n0 1 0 0 0 2\n"), expected);
+  EXPECT_EQ(read(read_nrrd, fields() + "encoding: raw\nline skip: 1\nbyte skip: 2\n\nwords\nxx" +
+                                two_label_pixels),
             expected);
 }
 
 TEST(Nrrd, NegativeDirectionsTurnTheImage) {
-  const Stack stack = read(fields("(-2,0,0) (0,-3,0) (0,0,5)") + "encoding: raw\n\n" + pixels);
+  const Stack stack =
+      read(read_nrrd, fields("(-2,0,0) (0,-3,0) (0,0,5)") + "encoding: raw\n\n" + two_label_pixels);
   EXPECT_TRUE(encloses(stack.slices[0], "1", {8, 20}));
   EXPECT_TRUE(encloses(stack.slices[0], "2", {6, 17}));
 }
 
 TEST(Nrrd, SegmentsHaveNamesAndColours) {
-  const Stack stack = read(fields() +
-                           "encoding: raw\nSegment0_ID:=S_1\nSegment0_Name:=heart\n"
-                           "Segment0_Color:=1 0.50196 0\nSegment0_LabelValue:=2\n"
-                           "Segment0_Layer:=0\n\n" +
-                           pixels);
+  const Stack stack = read(read_nrrd, fields() +
+                                          "encoding: raw\nSegment0_ID:=S_1\nSegment0_Name:=heart\n"
+                                          "Segment0_Color:=1 0.50196 0\nSegment0_LabelValue:=2\n"
+                                          "Segment0_Layer:=0\n\n" +
+                                          two_label_pixels);
   const StackLabel* const heart = stack.find_label("heart");
   ASSERT_NE(heart, nullptr);
   EXPECT_EQ(heart->colour, (Colour{255, 128, 0}));
@@ -98,9 +78,9 @@ TEST(Nrrd, LayersMayOverlap) {
   const std::string segments =
       "Segment0_ID:=a\nSegment0_Layer:=0\nSegment0_LabelValue:=1\n"
       "Segment1_ID:=b\nSegment1_Layer:=1\nSegment1_LabelValue:=1\n\n";
-  const Stack first =
-      read(layers("2 2 1 2", "none (1,0,0) (0,1,0) (0,0,1)", "list domain domain domain") +
-           segments + std::string("\1\1\0\1\1\1\0\1", 8));
+  const Stack first = read(
+      read_nrrd, layers("2 2 1 2", "none (1,0,0) (0,1,0) (0,0,1)", "list domain domain domain") +
+                     segments + std::string("\1\1\0\1\1\1\0\1", 8));
   EXPECT_TRUE(encloses(first.slices[0], "a", {0, 0}));
   EXPECT_TRUE(encloses(first.slices[0], "b", {0, 0}));
   EXPECT_FALSE(encloses(first.slices[0], "a", {1, 0}));
@@ -109,8 +89,9 @@ TEST(Nrrd, LayersMayOverlap) {
 
 TEST(Nrrd, OldFilesHaveALayerForEachSegment) {
   const Stack stack = read(
+      read_nrrd,
       layers("2 1 2 2", "(1,0,0,0) (0,1,0,0) (0,0,1,0) (0,0,0,1)", "domain domain domain domain") +
-      "Segment0_ID:=a\nSegment1_ID:=b\n\n" + std::string("\1\0\1\0\0\1\0\1", 8));
+          "Segment0_ID:=a\nSegment1_ID:=b\n\n" + std::string("\1\0\1\0\0\1\0\1", 8));
   EXPECT_TRUE(encloses(stack.slices[1], "a", {0, 0}));
   EXPECT_TRUE(encloses(stack.slices[1], "b", {1, 0}));
   EXPECT_FALSE(encloses(stack.slices[1], "b", {0, 0}));
@@ -118,12 +99,12 @@ TEST(Nrrd, OldFilesHaveALayerForEachSegment) {
 
 TEST(Nrrd, PixelsMayBeInAFileBesideIt) {
   const Folder folder;
-  static_cast<void>(folder.write("a.raw", pixels));
+  static_cast<void>(folder.write("a.raw", two_label_pixels));
   const std::string header = fields() + "encoding: raw\ndata file: a.raw\n";
   const Stack stack = read_nrrd({header, "a.nhdr", folder / ""}, {});
   EXPECT_EQ(stack.slices.size(), 2U);
   for (const std::string file : {"../a.raw", "/etc/passwd", "none.raw", "LIST", "a%d.raw"})
-    EXPECT_THAT(message_of<InputError>([&] {
+    EXPECT_THAT(testing::message_of<InputError>([&] {
                   const std::string other = fields() + "encoding: raw\ndata file: " + file + "\n";
                   static_cast<void>(read_nrrd({other, "a.nhdr", folder / ""}, {}));
                 }),
@@ -132,20 +113,20 @@ TEST(Nrrd, PixelsMayBeInAFileBesideIt) {
 
 TEST(Nrrd, SpacingIsAskedForWhereThereIsNone) {
   const std::string file =
-      "NRRD0001\ntype: uchar\ndimension: 3\nsizes: 3 2 2\nencoding: raw\n\n" + pixels;
-  EXPECT_THAT(problem(file), HasSubstr("--spacing"));
-  const Stack stack = read(file, {.spacing = Vec3{1, 1, 4}});
+      "NRRD0001\ntype: uchar\ndimension: 3\nsizes: 3 2 2\nencoding: raw\n\n" + two_label_pixels;
+  EXPECT_THAT(problem(read_nrrd, file), HasSubstr("--spacing"));
+  const Stack stack = read(read_nrrd, file, {.spacing = Vec3{1, 1, 4}});
   EXPECT_EQ(stack.slices[1].z - stack.slices[0].z, 4);
 }
 
 TEST(Nrrd, SaysWhatIsWrong) {
-  const std::string good = fields() + "encoding: raw\n\n" + pixels;
+  const std::string good = fields() + "encoding: raw\n\n" + two_label_pixels;
   const auto with = [&](const std::string& what, const std::string& by) {
     std::string bad = good;
     bad.replace(bad.find(what), what.size(), by);
-    return problem(bad);
+    return problem(read_nrrd, bad);
   };
-  EXPECT_THAT(problem("P5\n"), HasSubstr("NRRD000"));
+  EXPECT_THAT(problem(read_nrrd, "P5\n"), HasSubstr("NRRD000"));
   EXPECT_THAT(with("unsigned char", "block"), HasSubstr("type"));
   EXPECT_THAT(with("dimension: 3", "dimension: 7"), HasSubstr("dimension"));
   EXPECT_THAT(with("sizes: 3 2 2", "sizes: 3 2"), HasSubstr("sizes"));
@@ -159,9 +140,9 @@ TEST(Nrrd, SaysWhatIsWrong) {
 }
 
 TEST(Nrrd, IsRefusedCutOffAnywhere) {
-  const std::string good = fields() + "encoding: gzip\n\n" + gzip(pixels);
+  const std::string good = fields() + "encoding: gzip\n\n" + gzipped(two_label_pixels);
   for (std::size_t size = 0; size < good.size(); ++size)
-    EXPECT_NE(problem(good.substr(0, size)), "") << size;
+    EXPECT_NE(problem(read_nrrd, good.substr(0, size)), "") << size;
 }
 
 }  // namespace
