@@ -71,9 +71,9 @@ NodeId cuts(Solid& solid, NodeId& moved) {
   std::vector<NodeId> all{place(solid, disc(20), {}), moved = place(solid, disc(8), at(52, 0))};
   for (const double x : {-40.0, 40.0})
     for (const double y : {-28.0, 28.0}) all.push_back(place(solid, disc(5), at(x, y)));
-  for (const double angle : {-0.5, 0.0, 0.5}) {
-    const NodeId one = slot(solid, 14, 5);
-    solid.set_transform(one, at(-50, 0) * turned(std::numbers::pi / 2 + angle) * at(0, 14));
+  for (const double angle : {-0.9, 0.0, 0.9}) {
+    const NodeId one = slot(solid, 8, 5);
+    solid.set_transform(one, at(-50, 0) * turned(std::numbers::pi / 2 + angle) * at(0, 18));
     all.push_back(one);
   }
   return solid.combine(Operation::unite, std::move(all));
@@ -108,7 +108,7 @@ void run(const std::string& path) {
                 polygons.front().holes.size());
     map.features.push_back(picture(solid, i));
   }
-  loft::io::write(path, map);
+  loft::io::write(path, map, {.width = 900});
 }
 
 }  // namespace

@@ -110,7 +110,7 @@ void run(const std::string& in, const std::string& out) {
   }
   for (const auto& [names, area] : overlaps(overlay))
     std::printf("%s: %.9f square degrees\n", names.c_str(), area.to_double());
-  loft::io::write(out, picture(overlay));
+  loft::io::write(out, picture(overlay), {.width = 900});
 }
 
 }  // namespace

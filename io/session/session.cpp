@@ -166,6 +166,7 @@ class Session::Journal {
   }
 
   void prepare_to_write() {
+    database_.make_log();
     database_.execute("pragma journal_mode = wal");
     database_.execute("pragma synchronous = full");
     database_.execute("pragma wal_autocheckpoint = 1000");

@@ -168,6 +168,13 @@ bool SessionDatabase::has_log() const {
 
 // --- Where it lies ---
 
+/// Empty, SQLite takes it for none. It is there before the header says that there is one, so that
+/// who is killed between the two leaves no session whose log seems to be lost.
+void SessionDatabase::make_log() const {
+  const int file = ::open(log(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  if (file >= 0) ::close(file);
+}
+
 void SessionDatabase::remember_log() { log_id_ = file_id(log()); }
 
 void SessionDatabase::check_in_place() const {

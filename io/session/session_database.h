@@ -54,6 +54,8 @@ class SessionDatabase {
 
   /// Throws where the name no longer means the file that is open: what is written there is lost.
   void check_in_place() const;
+  /// Makes an empty log, if there is none, before the database is told to use one.
+  void make_log() const;
   /// From now on check_in_place() looks for SQLite's log, too.
   void remember_log();
 

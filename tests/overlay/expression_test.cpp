@@ -137,6 +137,16 @@ TEST(Expression, SaysWhereItIsNotUnderstood) {
   expect_error(std::string(100000, '(') + "a", 500, "nested too deeply");
 }
 
+TEST(Expression, OfTermsThatFitTogether) {
+  using Term = Expression::Term;
+  const Term layer{.kind = Term::Kind::layer, .layer = LayerId(0)};
+  const Term both{.kind = Term::Kind::at_least, .layer = {}, .operands = 2, .count = 2};
+  EXPECT_EQ(Expression::of({layer, layer, both}), Expression(LayerId(0)) & LayerId(0));
+  EXPECT_THROW((void)Expression::of({layer, both}), std::invalid_argument);
+  EXPECT_THROW((void)Expression::of({layer, layer}), std::invalid_argument);
+  EXPECT_THROW((void)Expression::of({}), std::invalid_argument);
+}
+
 TEST(Expression, OfManyLayersIsMadeInOneSweep) {
   Expression all;
   for (std::uint32_t i = 0; i < 100'000; ++i) all = std::move(all) | LayerId(i);

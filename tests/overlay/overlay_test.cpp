@@ -4,8 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -303,6 +305,24 @@ TEST(Overlay, TheBoundOfTheErrorHolds) {
   EXPECT_LT(bound, 1e-13);
   Two exact({square(0, 0, 2)}, {square(1, 1, 2)});
   EXPECT_EQ(exact.overlay.area_error_bound(), 0);
+}
+
+TEST(Overlay, IsReadBySeveralThreadsAtOnce) {
+  Two two({square(0, 0, 8), square(3, 3, 9)}, {square(2, 1, 8)});
+  const Overlay& overlay = two.overlay;
+  const ResultId both = two.overlay.watch(two.a & Expression(two.b));
+  const MultiPolygon wanted = overlay.polygons(both);
+  const Cover middle = overlay.cover(Point{2.5, 2.5});
+  std::vector<std::thread> threads;
+  std::atomic<int> right = 0;
+  for (int i = 0; i < 4; ++i)
+    threads.emplace_back([&] {
+      for (int k = 0; k < 50; ++k)
+        right +=
+            overlay.polygons(both) == wanted && overlay.cover(Point{2.5, 2.5}) == middle ? 1 : 0;
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(right, 200);
 }
 
 TEST(Overlay, ForgetsWindingsThatAreNowhere) {

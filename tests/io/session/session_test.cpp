@@ -376,6 +376,21 @@ TEST_F(SessionFile, ALogThatIsMissingIsNamed) {
   EXPECT_THAT(words, AllOf(HasSubstr("copy.session-wal"), HasSubstr("missing")));
 }
 
+/// As a process leaves it that is killed while it opens a session: the header says that there is a
+/// log, and that is empty.
+TEST_F(SessionFile, IsOpenedAgainAfterAKillWhileItWasOpened) {
+  for (const bool is_new : {true, false}) {
+    if (!is_new) write().append(std::vector{edit(0)});
+    if (is_new) static_cast<void>(write());
+    std::fstream file(path_, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(18);
+    file.write("\2\2", 2);
+    file.close();
+    std::ofstream(path_.string() + "-wal");
+    EXPECT_EQ(write().edit_count(), is_new ? 0U : 1U);
+  }
+}
+
 /// Appends edits until it is killed; says of each that it is kept.
 [[noreturn]] void capture(const std::filesystem::path& path, int acknowledge) {
   Session session(path, Session::Access::write);
