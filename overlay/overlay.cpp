@@ -9,6 +9,7 @@
 
 #include "cdt/predicates.h"
 #include "overlay/distance.h"
+#include "overlay/expression_difference.h"
 #include "overlay/parts.h"
 
 namespace loft::overlay {
@@ -161,15 +162,18 @@ ResultId Overlay::watch(Expression what) {
 
 void Overlay::set(ResultId result, Expression what) {
   Result& one = parts_->known(result);
+  const auto layers = layers_of_difference(one.what, what);
   Result other = checked_result(std::move(what), layer_count());
-  parts_->learn_truths(other);
   one.what = std::move(other.what);
   one.formula = std::move(other.formula);
   one.change = {};
-  const std::vector<std::uint32_t> before = std::exchange(one.is_in, std::move(other.is_in));
-  for (std::uint32_t c = 0; c < one.is_in.size(); ++c)
-    if (one.is_in[c] != (c < before.size() ? before[c] : 0))
-      parts_->covers.for_each(CoverId(c), [&](TriangleId t) { parts_->check_borders(one, t); });
+  const auto check = [&](CoverId cover) { parts_->check_truth(one, cover); };
+  if (layers)
+    for (const LayerId layer : *layers)
+      std::ranges::for_each(parts_->windings.covers_with(layer), check);
+  else
+    for (std::uint32_t c = 0; c < one.is_in.size(); ++c) check(CoverId(c));
+  parts_->finish_truths(one);
   parts_->sum_up(one);
 }
 

@@ -109,6 +109,22 @@ void Overlay::Parts::learn_truths(Result& result) {
     result.is_in.push_back(result.formula.is_true(windings.layers(CoverId(c))) ? 1 : 0);
 }
 
+/// Whether a cover belongs to a result may have changed.
+void Overlay::Parts::check_truth(Result& result, CoverId cover) {
+  if (cover.index() >= result.is_in.size()) return;  // learnt when it is needed
+  const std::uint32_t is_in = result.formula.is_true(windings.layers(cover)) ? 1 : 0;
+  if (is_in == result.is_in[cover.index()]) return;
+  result.is_in[cover.index()] = is_in;
+  turned.push_back(cover);
+}
+
+/// Takes the borders of all covers over that have changed.
+void Overlay::Parts::finish_truths(Result& result) {
+  for (const CoverId cover : turned)
+    covers.for_each(cover, [&](TriangleId t) { check_borders(result, t); });
+  turned.clear();
+}
+
 void Overlay::Parts::update(Result& result) {
   learn_truths(result);
   result.change = {};

@@ -9,6 +9,7 @@ void Windings::forget() {
   lists_ = {};
   covers_of_.clear();
   covers_ = {};
+  for (auto& covers : by_layer_) covers.clear();
   crossings_.clear();
   changed_.clear();
   (void)number_of_changed();
@@ -49,7 +50,11 @@ WindingId Windings::number_of_changed() {
     inside_.clear();
     for (const Turns& turns : changed_)
       if (is_inside(rules_[turns.layer.index()], turns.times)) inside_.push_back(turns.layer);
-    covers_of_.emplace_back(covers_.number_of(inside_));
+    const std::uint32_t known = covers_.size();
+    const CoverId cover(covers_.number_of(inside_));
+    covers_of_.push_back(cover);
+    if (cover.index() == known)
+      for (const LayerId layer : inside_) by_layer_[layer.index()].push_back(cover);
   }
   return result;
 }

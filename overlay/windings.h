@@ -25,7 +25,10 @@ class Windings {
  public:
   Windings() { forget(); }
 
-  void add_layer(FillRule rule) { rules_.push_back(rule); }
+  void add_layer(FillRule rule) {
+    rules_.push_back(rule);
+    by_layer_.emplace_back();
+  }
   /// All that was met; the layers stay.
   void forget();
 
@@ -36,6 +39,11 @@ class Windings {
   /// The layers of a cover, sorted.
   [[nodiscard]] std::span<const LayerId> layers(CoverId cover) const {
     return covers_[cover.index()];
+  }
+
+  /// The covers that have a layer, in the order in which they were met.
+  [[nodiscard]] std::span<const CoverId> covers_with(LayerId layer) const {
+    return by_layer_[layer.index()];
   }
 
   [[nodiscard]] std::uint32_t size() const { return lists_.size(); }
@@ -61,7 +69,8 @@ class Windings {
   Interned<Turns> lists_;
   std::vector<CoverId> covers_of_;  // by windings
   Interned<LayerId> covers_;
-  FlatMap crossings_;  // what crossed() answered
+  std::vector<std::vector<CoverId>> by_layer_;  // the covers with it
+  FlatMap crossings_;                           // what crossed() answered
 
   // Scratch memory, kept to spare allocations.
   std::vector<Turns> changed_;

@@ -7,6 +7,7 @@
 #include <functional>
 #include <random>
 
+#include "overlay/expression_difference.h"
 #include "overlay/formula.h"
 
 namespace loft::overlay {
@@ -135,6 +136,46 @@ TEST(Expression, SaysWhereItIsNotUnderstood) {
   expect_error("at_least(x, a)", 9, "a number");
   expect_error("exactly(1 a)", 10, "')' is missing");
   expect_error(std::string(100000, '(') + "a", 500, "nested too deeply");
+}
+
+TEST(Expression, DiffersOnlyWhereLayersOfTheDifferenceAre) {
+  for (unsigned seed = 0; seed < 2000; ++seed) {
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    std::mt19937_64 random(seed);
+    const Expression one = random_expression(random, 4);
+    Expression other = random_expression(random, 2);
+    // Often one term of the same is another.
+    if (seed % 2 == 0) {
+      std::vector<Expression::Term> terms(one.terms().begin(), one.terms().end());
+      Expression::Term& term = terms[random() % terms.size()];
+      if (term.kind == Expression::Term::Kind::layer)
+        term.layer = LayerId(static_cast<std::uint32_t>(random() % 5));
+      else
+        term.count = static_cast<std::uint32_t>(random() % 3);
+      other = Expression::of(std::move(terms));
+    }
+    const auto layers = layers_of_difference(one, other);
+    if (one == other) {
+      EXPECT_EQ(layers, std::vector<LayerId>());
+    }
+    for (unsigned cover = 0; layers && cover < 32; ++cover) {
+      const bool has_any = std::ranges::any_of(
+          *layers, [&](LayerId layer) { return (cover >> layer.index() & 1) != 0; });
+      if (!has_any) {
+        ASSERT_EQ(answer(one, cover), answer(other, cover)) << cover;
+      }
+    }
+  }
+  const Expression a = LayerId(0);
+  const Expression b = LayerId(1);
+  const Expression c = LayerId(2);
+  EXPECT_EQ(layers_of_difference((a | b) & c, (a & b) & c),
+            (std::vector<LayerId>{a.terms()[0].layer, b.terms()[0].layer, c.terms()[0].layer}));
+  EXPECT_EQ(layers_of_difference((a | b) ^ c, (a & b) ^ c),
+            (std::vector<LayerId>{LayerId(0), LayerId(1)}));
+  EXPECT_EQ(layers_of_difference(c | (a - b), c | (a ^ b)),
+            (std::vector<LayerId>{LayerId(0), LayerId(1)}));
+  EXPECT_EQ(layers_of_difference(a, ~a), std::nullopt);
 }
 
 TEST(Expression, OfTermsThatFitTogether) {
