@@ -81,8 +81,10 @@ NodeId cuts(Solid& solid, NodeId& moved) {
 
 /// A picture of the gasket beside those before.
 loft::io::Feature picture(const Solid& solid, int number) {
-  const double x = 190.0 * (number % 2);
-  const double y = -110.0 * (number / 2);
+  const int column = number % 2;
+  const int row = number / 2;
+  const double x = 190.0 * column;
+  const double y = -110.0 * row;
   loft::io::Feature feature{.polygons = solid.polygons(),
                             .properties = "{\"name\":\"" + std::to_string(number) + "\"}"};
   const auto shift = [&](Ring& ring) {
