@@ -94,6 +94,7 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     for (const std::uint32_t k : {before, i}) {
       if (k >= count || !stays_[k]) continue;
       take_off(SegmentId(first + k));
+      std::erase(crowded_, SegmentId(first + k));  // it is laid once its ends are there
       stays_[k] = false;
     }
   }
