@@ -658,6 +658,21 @@ TEST(Moving, KeepsTheVerticesOfASmallStep) {
   EXPECT_EQ(mesh.vertex_count(), 4U);
 }
 
+/// A segment waits to be led through a crowd, and one of its ends does not stay.
+TEST(Moving, OutOfACrowdOfItsOwnPoints) {
+  Triangulation mesh;
+  const Points points{
+      {4.254260473141475, 1.5131790044483333},  {13.663879864515097, -7.512721136406262},
+      {8.541577119679635, -30.188279575831324}, {4.254260473141475, 1.5131790044483342},
+      {4.254260473141476, 1.5131790044483338},  {3.3822604731414745, 6.563179004448333},
+      {5.264260473141475, 10.813179004448335}};
+  const ConstraintId moved = mesh.insert(points, open);
+  mesh.insert(Points{{3.99, 0.5}}, open);
+  mesh.translate(moved, {0.005223101763100663, -0.014301012216522982});
+  EXPECT_TRUE(check(mesh).empty());
+  EXPECT_EQ(mesh.segments(moved).size(), points.size() - 1);
+}
+
 TEST(Snaps, GoWithTheSegmentsThatMadeThem) {
   Triangulation mesh;
   std::vector<ConstraintId> ids;
