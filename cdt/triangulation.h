@@ -104,6 +104,9 @@ class Triangulation {
     const double size = coordinate < 0 ? -coordinate : coordinate;
     return size <= largest_coordinate && (size >= smallest_coordinate || size == 0);
   }
+  [[nodiscard]] static constexpr bool is_usable(Point point) {
+    return is_usable(point.x) && is_usable(point.y);
+  }
 
   Triangulation() { clear(); }
   /// Precondition: epsilon is finite and not negative; std::invalid_argument otherwise.
@@ -381,9 +384,6 @@ class Triangulation {
   void join(EdgeId a, EdgeId b, PassageSet set);
 
   // triangulation.cpp: edits
-  [[nodiscard]] static bool is_usable(Point point) {
-    return is_usable(point.x) && is_usable(point.y);
-  }
   static void check_usable(std::span<const Point> points);
   void check_known(ConstraintId id) const;
   void begin_edit();

@@ -27,6 +27,10 @@ struct BorderEdge {
   }
 };
 
+[[nodiscard]] inline BorderEdge border_edge(const cdt::Triangulation& mesh, EdgeId e) {
+  return {e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))};
+}
+
 /// The border edges of a result, found by their ids. They keep their places, so that they can be
 /// named when their triangles are gone.
 class Border {

@@ -9,11 +9,16 @@
 
 namespace loft::overlay {
 
-Cover cover_along(const Overlay& overlay, EdgeId edge) {
+std::pair<CoverId, CoverId> covers_beside(const Overlay& overlay, EdgeId edge) {
   using cdt::Triangulation;
-  const cdt::Triangulation& mesh = overlay.triangulation();
-  const auto left = overlay.layers(overlay.cover(Triangulation::triangle(edge)));
-  const auto right = overlay.layers(overlay.cover(Triangulation::triangle(mesh.twin(edge))));
+  return {overlay.cover(Triangulation::triangle(edge)),
+          overlay.cover(Triangulation::triangle(overlay.triangulation().twin(edge)))};
+}
+
+Cover cover_along(const Overlay& overlay, EdgeId edge) {
+  const auto [on_left, on_right] = covers_beside(overlay, edge);
+  const auto left = overlay.layers(on_left);
+  const auto right = overlay.layers(on_right);
   Cover result;
   std::ranges::set_intersection(left, right, std::back_inserter(result.inside));
   std::ranges::set_symmetric_difference(left, right, std::back_inserter(result.on_border_of));
@@ -22,12 +27,9 @@ Cover cover_along(const Overlay& overlay, EdgeId edge) {
 
 namespace {
 
-/// The covers on both sides of an edge, whichever is on which.
-std::pair<CoverId, CoverId> covers_beside(const Overlay& overlay, EdgeId edge) {
-  using cdt::Triangulation;
-  const CoverId left = overlay.cover(Triangulation::triangle(edge));
-  const CoverId right = overlay.cover(Triangulation::triangle(overlay.triangulation().twin(edge)));
-  return std::minmax(left, right);
+/// Whichever is on which side.
+std::pair<CoverId, CoverId> unordered(std::pair<CoverId, CoverId> covers) {
+  return std::minmax(covers.first, covers.second);
 }
 
 }  // namespace
@@ -42,7 +44,7 @@ std::vector<LinePiece> pieces(const Overlay& overlay, RingId line) {
     const auto number = static_cast<std::uint32_t>(&segment - mesh.segments(line).data());
     bool is_first = true;  // of the segment, so that it starts from a point of the line
     for (const EdgeId e : mesh.pieces(cdt::SegmentId(mesh.first_segment(line).index() + number))) {
-      const auto here = covers_beside(overlay, e);
+      const auto here = unordered(covers_beside(overlay, e));
       const bool may_differ = result.empty() || here != beside;
       const Cover cover = may_differ ? cover_along(overlay, e) : Cover();
       if (may_differ && (result.empty() || cover != result.back().cover)) {

@@ -25,6 +25,8 @@ struct LinePiece {
 /// The lengths by cover, which sum to the line's, in the order of the covers' lists.
 [[nodiscard]] std::vector<std::pair<Cover, double>> lengths(std::span<const LinePiece> pieces);
 
+/// The covers on the left and on the right of an edge.
+[[nodiscard]] std::pair<CoverId, CoverId> covers_beside(const Overlay& overlay, EdgeId edge);
 /// The layers on both sides of an edge, and on one side only.
 [[nodiscard]] Cover cover_along(const Overlay& overlay, EdgeId edge);
 

@@ -19,8 +19,7 @@ std::vector<TracedPolygon> layer_traces(const Overlay& overlay, LayerId layer) {
     for (const cdt::TriangleId t : overlay.triangles(CoverId(c)))
       for (unsigned corner = 0; corner < 3; ++corner) {
         const EdgeId e = Triangulation::edge(t, corner);
-        if (regions.has_border(e))
-          border.push_back({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
+        if (regions.has_border(e)) border.push_back(border_edge(mesh, e));
       }
   }
   return trace(regions, border);

@@ -93,6 +93,15 @@ void Overlay::remove(RingId ring) {
   parts_->finish_edit();
 }
 
+/// In a batch of its own, unless there is one.
+template <class Edits>
+void Overlay::as_one_edit(Edits edits) {
+  const bool is_own_batch = !parts_->is_in_batch;
+  if (is_own_batch) begin_batch();
+  edits();
+  if (is_own_batch) end_batch();
+}
+
 void Overlay::translate(LayerId layer, Point by) { transform(layer, {.x0 = by.x, .y0 = by.y}); }
 
 void Overlay::transform(LayerId layer, const Affine& map) {
@@ -102,20 +111,18 @@ void Overlay::transform(LayerId layer, const Affine& map) {
     for (Point& p : moved.back()) p = map(p);
     parts_->check_usable(layer, moved.back());
   }
-  const bool is_own_batch = !parts_->is_in_batch;
-  if (is_own_batch) begin_batch();
   const std::vector<RingId>& rings = parts_->known(layer).rings;
-  for (std::size_t i = 0; i < rings.size(); ++i) parts_->mesh.move(rings[i], moved[i]);
-  if (is_own_batch) end_batch();
+  as_one_edit([&] {
+    for (std::size_t i = 0; i < rings.size(); ++i) parts_->mesh.move(rings[i], moved[i]);
+  });
 }
 
 void Overlay::clear(LayerId layer) {
   Layer& one = parts_->known(layer);
-  const bool is_own_batch = !parts_->is_in_batch;
-  if (is_own_batch) begin_batch();
-  for (const RingId ring : one.rings) parts_->mesh.remove(ring);
+  as_one_edit([&] {
+    for (const RingId ring : one.rings) parts_->mesh.remove(ring);
+  });
   one.rings.clear();
-  if (is_own_batch) end_batch();
 }
 
 void Overlay::begin_batch() {
@@ -167,13 +174,8 @@ void Overlay::set(ResultId result, Expression what) {
   one.what = std::move(other.what);
   one.formula = std::move(other.formula);
   one.change = {};
-  const auto check = [&](CoverId cover) { parts_->check_truth(one, cover); };
-  if (layers)
-    for (const LayerId layer : *layers)
-      std::ranges::for_each(parts_->windings.covers_with(layer), check);
-  else
-    for (std::uint32_t c = 0; c < one.is_in.size(); ++c) check(CoverId(c));
-  parts_->finish_truths(one);
+  parts_->check_truths(
+      one, layers ? parts_->windings.covers_with(*layers) : parts_->windings.all_covers());
   parts_->sum_up(one);
 }
 

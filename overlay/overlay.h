@@ -166,6 +166,9 @@ class Overlay {
   [[nodiscard]] const cdt::Triangulation& triangulation() const;
 
  private:
+  template <class Edits>
+  void as_one_edit(Edits edits);
+
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };

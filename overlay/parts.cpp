@@ -35,7 +35,7 @@ void Overlay::Parts::check_usable(LayerId layer, std::span<const Point> points) 
   };
   if (points.empty()) fail("has no point");
   for (const Point& p : points) {
-    if (Triangulation::is_usable(p.x) && Triangulation::is_usable(p.y)) continue;
+    if (Triangulation::is_usable(p)) continue;
     std::ostringstream place;
     place << "point " << &p - points.data() << ' ' << p
           << " is not usable: coordinates are 0 or between 1e-50 and 1e75 in magnitude";
@@ -109,20 +109,15 @@ void Overlay::Parts::learn_truths(Result& result) {
     result.is_in.push_back(result.formula.is_true(windings.layers(CoverId(c))) ? 1 : 0);
 }
 
-/// Whether a cover belongs to a result may have changed.
-void Overlay::Parts::check_truth(Result& result, CoverId cover) {
-  if (cover.index() >= result.is_in.size()) return;  // learnt when it is needed
-  const std::uint32_t is_in = result.formula.is_true(windings.layers(cover)) ? 1 : 0;
-  if (is_in == result.is_in[cover.index()]) return;
-  result.is_in[cover.index()] = is_in;
-  turned.push_back(cover);
-}
-
-/// Takes the borders of all covers over that have changed.
-void Overlay::Parts::finish_truths(Result& result) {
+/// Whether some covers belong to a result may have changed; all are settled before any border is.
+void Overlay::Parts::check_truths(Result& result, std::span<const CoverId> some) {
+  std::vector<CoverId> turned;
+  for (const CoverId cover : some) {
+    const std::uint32_t is_in = result.formula.is_true(windings.layers(cover)) ? 1 : 0;
+    if (std::exchange(result.is_in[cover.index()], is_in) != is_in) turned.push_back(cover);
+  }
   for (const CoverId cover : turned)
     covers.for_each(cover, [&](TriangleId t) { check_borders(result, t); });
-  turned.clear();
 }
 
 void Overlay::Parts::update(Result& result) {
@@ -146,7 +141,7 @@ void Overlay::Parts::check_border(Result& result, EdgeId e) {
   const bool is_border = region(result).has_border(e);
   if (is_border == result.border.has(e)) return;
   if (!is_border) return take_border(result, e);
-  const BorderEdge edge{e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))};
+  const BorderEdge edge = border_edge(mesh, e);
   result.border.add(edge);
   result.change.come.push_back(edge);
 }
@@ -172,7 +167,7 @@ void Overlay::Parts::build_border(Result& result) {
       for (unsigned corner = 0; corner < 3; ++corner) {
         const EdgeId e = Triangulation::edge(t, corner);
         if (where.right_of(e) != 0) continue;
-        result.border.add({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
+        result.border.add(border_edge(mesh, e));
       }
     });
   }

@@ -72,7 +72,6 @@ struct Overlay::Parts {
   ListsByCover covers;
   std::vector<std::optional<Result>> results;
   bool is_in_batch = false;
-  std::vector<CoverId> turned;  // covers whose truth has changed
 
   // What is asked for.
   [[nodiscard]] Layer& known(LayerId layer) {
@@ -104,8 +103,7 @@ struct Overlay::Parts {
   void flood_again();
   void cover_anew(cdt::TriangleId t);
   void learn_truths(Result& result);
-  void check_truth(Result& result, CoverId cover);
-  void finish_truths(Result& result);
+  void check_truths(Result& result, std::span<const CoverId> some);
   void update(Result& result);
   void take_border(Result& result, EdgeId e);
   void check_border(Result& result, EdgeId e);

@@ -9,6 +9,7 @@
 
 #include "cdt/each_once.h"
 #include "cdt/predicates.h"
+#include "overlay/cut.h"
 #include "overlay/distance.h"
 #include "overlay/flat_map.h"
 
@@ -73,12 +74,6 @@ std::optional<BorderPlace> nearest_edge(const Overlay& overlay, Point p, IsBorde
         }
       });
   return best;
-}
-
-/// The covers on both sides of an edge.
-std::array<CoverId, 2> sides_of(const Overlay& overlay, EdgeId e) {
-  return {overlay.cover(Triangulation::triangle(e)),
-          overlay.cover(Triangulation::triangle(overlay.triangulation().twin(e)))};
 }
 
 std::array<Point, 3> corners_of(const Triangulation& mesh, TriangleId t) {
@@ -148,17 +143,16 @@ class LayersMet {
 
 std::optional<BorderPlace> nearest_border(const Overlay& overlay, Point p) {
   return nearest_edge(overlay, p, [&](EdgeId e) {
-    const auto sides = sides_of(overlay, e);
-    return sides[0] != sides[1] &&
-           !std::ranges::equal(overlay.layers(sides[0]), overlay.layers(sides[1]));
+    const auto [left, right] = covers_beside(overlay, e);
+    return left != right && !std::ranges::equal(overlay.layers(left), overlay.layers(right));
   });
 }
 
 std::optional<BorderPlace> nearest_border(const Overlay& overlay, Point p, LayerId layer) {
   return nearest_edge(overlay, p, [&](EdgeId e) {
-    const auto sides = sides_of(overlay, e);
-    return std::ranges::binary_search(overlay.layers(sides[0]), layer) !=
-           std::ranges::binary_search(overlay.layers(sides[1]), layer);
+    const auto [left, right] = covers_beside(overlay, e);
+    return std::ranges::binary_search(overlay.layers(left), layer) !=
+           std::ranges::binary_search(overlay.layers(right), layer);
   });
 }
 

@@ -76,7 +76,7 @@ std::vector<Ring> placed(const std::vector<Ring>& rings, const Affine& map) {
     if (ring.empty()) throw std::invalid_argument("solid: a ring has no point");
     for (Point& p : ring) {
       p = map(p);
-      if (!cdt::Triangulation::is_usable(p.x) || !cdt::Triangulation::is_usable(p.y))
+      if (!cdt::Triangulation::is_usable(p))
         throw std::invalid_argument(
             "solid: a point comes to where it is not usable: coordinates are 0 or between 1e-50 "
             "and "

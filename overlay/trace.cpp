@@ -213,7 +213,7 @@ std::vector<BorderEdge> borders(const Regions& regions) {
   for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i) {
     const EdgeId e(i);
     if (!mesh.is_constrained(e) || !regions.has_border(e)) continue;
-    result.push_back({e, mesh.point(mesh.from(e)), mesh.point(mesh.to(e))});
+    result.push_back(border_edge(mesh, e));
   }
   return result;
 }

@@ -138,8 +138,7 @@ class ValidityCheck {
     using cdt::Triangulation;
     const std::size_t before = problems_.size();
     for (const Point p : ring)
-      if (!Triangulation::is_usable(p.x) || !Triangulation::is_usable(p.y))
-        tell(InvalidityKind::unusable_point, name, p);
+      if (!Triangulation::is_usable(p)) tell(InvalidityKind::unusable_point, name, p);
     return problems_.size() == before;
   }
 

@@ -15,6 +15,21 @@ void Windings::forget() {
   (void)number_of_changed();
 }
 
+std::vector<CoverId> Windings::covers_with(std::span<const LayerId> layers) const {
+  std::vector<CoverId> result;
+  for (const LayerId layer : layers) {
+    const std::vector<CoverId>& more = by_layer_[layer.index()];
+    result.insert(result.end(), more.begin(), more.end());
+  }
+  return result;
+}
+
+std::vector<CoverId> Windings::all_covers() const {
+  std::vector<CoverId> result;
+  for (std::uint32_t c = 0; c < cover_count(); ++c) result.emplace_back(c);
+  return result;
+}
+
 WindingId Windings::crossed(WindingId here, LayerId layer, int step) {
   const std::uint64_t key =
       std::uint64_t{here.index()} << 32 | layer.index() << 1 | static_cast<unsigned>(step > 0);

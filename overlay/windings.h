@@ -41,10 +41,9 @@ class Windings {
     return covers_[cover.index()];
   }
 
-  /// The covers that have a layer, in the order in which they were met.
-  [[nodiscard]] std::span<const CoverId> covers_with(LayerId layer) const {
-    return by_layer_[layer.index()];
-  }
+  /// The covers that have any of some layers, those that have several as often.
+  [[nodiscard]] std::vector<CoverId> covers_with(std::span<const LayerId> layers) const;
+  [[nodiscard]] std::vector<CoverId> all_covers() const;
 
   [[nodiscard]] std::uint32_t size() const { return lists_.size(); }
   [[nodiscard]] std::uint32_t cover_count() const { return covers_.size(); }
