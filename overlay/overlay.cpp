@@ -342,5 +342,8 @@ std::vector<RingId> Overlay::rings_without_inside() const {
 }
 
 const Triangulation& Overlay::triangulation() const { return parts_->mesh; }
+std::size_t Overlay::revision() const { return parts_->revision; }
+
+std::span<const cdt::TriangleId> Overlay::recovered() const { return parts_->follower.changed(); }
 
 }  // namespace loft::overlay

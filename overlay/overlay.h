@@ -165,6 +165,15 @@ class Overlay {
 
   [[nodiscard]] const cdt::Triangulation& triangulation() const;
 
+  // For whoever keeps something beside each triangle.
+
+  /// Counts edits; a batch is one. It goes up by 1 where the covers of all triangles
+  /// but those in triangulation().changes().made and in recovered() are what they were, and by more
+  /// where any may have changed.
+  [[nodiscard]] std::size_t revision() const;
+  /// The triangles that stayed in the last edit and have had another cover since, in no order.
+  [[nodiscard]] std::span<const cdt::TriangleId> recovered() const;
+
  private:
   template <class Edits>
   void as_one_edit(Edits edits);

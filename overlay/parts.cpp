@@ -61,6 +61,7 @@ void Overlay::Parts::unlist(RingId ring) {
 void Overlay::Parts::finish_edit() {
   if (is_in_batch) return;
   follow();
+  ++revision;
   constexpr std::uint32_t spare = 4096;
   if (windings.size() > 2 * windings_at_rebuild + spare) flood_again();
 }
@@ -91,6 +92,7 @@ void Overlay::Parts::rebuild() {
 
 /// Forgets windings and covers that are nowhere any more.
 void Overlay::Parts::flood_again() {
+  revision += 2;
   windings.forget();
   follower.begin();
   windings_at_rebuild = windings.size();

@@ -72,6 +72,7 @@ struct Overlay::Parts {
   ListsByCover covers;
   std::vector<std::optional<Result>> results;
   bool is_in_batch = false;
+  std::size_t revision = 0;
 
   // What is asked for.
   [[nodiscard]] Layer& known(LayerId layer) {

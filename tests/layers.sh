@@ -14,6 +14,7 @@ cd "${1:-$(dirname "$0")/..}" || exit 2
 wings='
 cdt           cdt/*
 overlay       overlay/*                      cdt
+paths         paths/*                        overlay
 mesh          mesh/*                         cdt
 
 values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,origin,parallel,progress,slice,stack,surface,usable}  mesh
@@ -29,7 +30,7 @@ shape         reconstruct/shape/*            link sew
 live          reconstruct/live/*             shape
 reconstruct   reconstruct/{reconstruct,fair,out_of_core,reconstruction,world}                live
 
-io-values     io/{unit,version}              reconstruct overlay
+io-values     io/{unit,version}              reconstruct paths
 bytes         io/bytes/*                     io-values
 read-options  io/stacks/{read_options,stack_format}  io-values
 contours      io/contours/*                  bytes read-options
@@ -120,23 +121,23 @@ arrows() {
 }
 
 offenders=$(
-  layers='cdt overlay mesh reconstruct io app'
+  layers='cdt overlay paths mesh reconstruct io app'
   { find $layers -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.cc'; includes $layers | grep '#include"'; } | arrows
 
   # The world outside: standard headers (neither slash nor dot in their names), and what a layer is
   # there to hide.
   posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
-  allow 'cdt overlay mesh' 'none'
+  allow 'cdt overlay paths mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
   allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|tiffio\.h|png\.h"
   allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
-  forbid 'cdt overlay mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
+  forbid 'cdt overlay paths mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'
   forbid io 'chrono>'
 
   # Our own headers are named from the root of the project, so that their layer can be seen.
   includes $layers tests samples bench |
-    grep '#include"' | grep -vE '#include"(cdt|overlay|mesh|reconstruct|io|app|tests|bench)/'
+    grep '#include"' | grep -vE '#include"(cdt|overlay|paths|mesh|reconstruct|io|app|tests|bench)/'
 )
 if [ -n "$offenders" ]; then
   echo "These lines include what their wing must not know (the table is in tests/layers.sh):"

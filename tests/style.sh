@@ -15,15 +15,15 @@ ours() {
 
 case ${1:-} in
   format)
-    { ours '*.h' cdt overlay mesh reconstruct io app tests samples bench
-      ours '*.cpp' cdt overlay mesh reconstruct io app tests samples bench; } |
+    { ours '*.h' cdt overlay paths mesh reconstruct io app tests samples bench
+      ours '*.cpp' cdt overlay paths mesh reconstruct io app tests samples bench; } |
       xargs clang-format --dry-run -Werror
     ;;
   tidy)
     # Each file by itself: it must include what it needs.
     cmake -S . -B "$2/tidy" -G Ninja -DLOFT_UNITY=OFF -DLOFT_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > "$2/tidy.txt" ||
       { cat "$2/tidy.txt"; exit 1; }
-    ours '*.cpp' cdt overlay mesh reconstruct io app samples |
+    ours '*.cpp' cdt overlay paths mesh reconstruct io app samples |
       xargs -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "$2/tidy"
     ;;
   *)

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: MIT
+#include "paths/free_space.h"
+
+#include <algorithm>
+#include <array>
+
+#include "cdt/predicates.h"
+
+namespace loft::paths {
+
+using cdt::Location;
+
+FreeSpace::FreeSpace(overlay::Overlay& overlay, const overlay::Expression& free,
+                     std::span<const LayerId> walls)
+    : overlay_(&overlay), mesh_(&overlay.triangulation()), free_(overlay.watch(free)) {
+  for (const LayerId layer : walls) {
+    if (layer.index() >= is_wall_layer_.size()) is_wall_layer_.resize(layer.index() + 1);
+    is_wall_layer_[layer.index()] = true;
+  }
+  build();
+}
+
+FreeSpace::~FreeSpace() { overlay_->unwatch(free_); }
+
+bool FreeSpace::is_wall(EdgeId e) const {
+  if (is_wall_layer_.empty()) return false;
+  for (const cdt::Passage passage : mesh_->passages(e)) {
+    const LayerId layer = overlay_->layer(mesh_->segment(passage.segment()).constraint);
+    if (layer.index() < is_wall_layer_.size() && is_wall_layer_[layer.index()]) return true;
+  }
+  return false;
+}
+
+void FreeSpace::follow() {
+  const std::size_t now = overlay_->revision();
+  if (now == revision_) return;
+  if (now != revision_ + 1) return build();
+  revision_ = now;
+
+  const std::size_t triangles = mesh_->triangle_bound();
+  beyond_.resize(3 * triangles);
+  corners_.resize(3 * triangles);
+  is_touched_.resize(triangles);
+  is_around_.resize(mesh_->vertex_bound());
+  touched_.clear();
+  around_.clear();
+  for (const TriangleId t : mesh_->changes().unmade) {
+    if (mesh_->is_triangle(t)) continue;
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      beyond_[3 * t.index() + corner] = EdgeId::none();
+      corners_[3 * t.index() + corner] = EdgeId::none();
+    }
+  }
+  for (const TriangleId t : mesh_->changes().made) touch(t);
+  for (const TriangleId t : overlay_->recovered()) touch(t);
+  for (const TriangleId t : touched_) open_sides(t);
+  for (const VertexId v : around_) turn_corners(v);
+  components_.update(*this, touched_);
+  for (const TriangleId t : touched_) is_touched_[t.index()] = false;
+  for (const VertexId v : around_) is_around_[v.index()] = false;
+}
+
+void FreeSpace::build() {
+  revision_ = overlay_->revision();
+  beyond_.assign(mesh_->edge_bound(), EdgeId::none());
+  corners_.assign(mesh_->edge_bound(), EdgeId::none());
+  is_touched_.assign(mesh_->triangle_bound(), false);
+  is_around_.assign(mesh_->vertex_bound(), false);
+  for (std::uint32_t i = 0; i < mesh_->triangle_bound(); ++i)
+    if (mesh_->is_triangle(TriangleId(i))) open_sides(TriangleId(i));
+  for (std::uint32_t i = 1; i < mesh_->vertex_bound(); ++i)
+    if (mesh_->is_vertex(VertexId(i))) turn_corners(VertexId(i));
+  components_.build(*this);
+}
+
+void FreeSpace::touch(TriangleId t) {
+  if (is_touched_[t.index()]) return;
+  is_touched_[t.index()] = true;
+  touched_.push_back(t);
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const EdgeId e = Triangulation::edge(t, corner);
+    corners_[e.index()] = EdgeId::none();
+    const VertexId v = mesh_->from(e);
+    if (v == Triangulation::infinite || is_around_[v.index()]) continue;
+    is_around_[v.index()] = true;
+    around_.push_back(v);
+  }
+}
+
+/// Which sides of a triangle can be crossed, from both sides of them.
+void FreeSpace::open_sides(TriangleId t) {
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const EdgeId e = Triangulation::edge(t, corner);
+    const EdgeId twin = mesh_->twin(e);
+    const bool is_open = is_free(t) && is_free(Triangulation::triangle(twin)) &&
+                         !(mesh_->is_constrained(e) && is_wall(e));
+    beyond_[e.index()] = is_open ? twin : EdgeId::none();
+    beyond_[twin.index()] = is_open ? e : EdgeId::none();
+  }
+}
+
+/// Where ways turn around a vertex, part by part of what is free there.
+void FreeSpace::turn_corners(VertexId v) {
+  const EdgeId start = mesh_->edge(v);
+  if (start.is_none()) return;
+  EdgeId first = start;
+  // Counter-clockwise, an edge from the vertex is followed by that beyond the third side.
+  const auto onward = [this](EdgeId e) { return beyond(Triangulation::prev(e)); };
+  do {
+    corners_[first.index()] = EdgeId::none();
+    first = mesh_->rotated(first);
+  } while (first != start);
+  do {
+    const bool begins = beyond(first).is_none() && is_free(Triangulation::triangle(first));
+    if (begins) {
+      EdgeId last = first;
+      while (!onward(last).is_none()) last = onward(last);
+      const Point here = mesh_->point(v);
+      const Point from = mesh_->point(mesh_->to(first));
+      const Point to = mesh_->point(mesh_->apex(last));
+      const int side = cdt::orient(here, from, to);
+      const bool is_around = side == 0 && (from.x - here.x) * (to.x - here.x) >= 0 &&
+                             (from.y - here.y) * (to.y - here.y) >= 0;
+      if (side < 0 || is_around) {
+        for (EdgeId e = first;; e = onward(e)) {
+          corners_[e.index()] = last;
+          if (e == last) break;
+        }
+      }
+    }
+    first = mesh_->rotated(first);
+  } while (first != start);
+}
+
+void FreeSpace::triangles_at(Point p, std::vector<TriangleId>& found) const {
+  found.clear();
+  const Location place = mesh_->locate(p);
+  const auto add = [&](EdgeId e) {
+    const TriangleId t = Triangulation::triangle(e);
+    if (is_free(t)) found.push_back(t);
+  };
+  switch (place.kind) {
+    case Location::Kind::triangle:
+      add(place.edge);
+      break;
+    case Location::Kind::edge: {
+      const bool is_upward =
+          mesh_->point(mesh_->from(place.edge)) < mesh_->point(mesh_->to(place.edge));
+      add(is_upward ? place.edge : mesh_->twin(place.edge));
+      add(is_upward ? mesh_->twin(place.edge) : place.edge);
+      break;
+    }
+    case Location::Kind::vertex: {
+      // From the neighbour that the coordinates put first.
+      EdgeId first = place.edge;
+      EdgeId e = first;
+      const auto is_before = [this](EdgeId a, EdgeId b) {
+        if (mesh_->to(a) == Triangulation::infinite) return false;
+        if (mesh_->to(b) == Triangulation::infinite) return true;
+        return mesh_->point(mesh_->to(a)) < mesh_->point(mesh_->to(b));
+      };
+      do {
+        if (is_before(e, first)) first = e;
+        e = mesh_->rotated(e);
+      } while (e != place.edge);
+      e = first;
+      do {
+        add(e);
+        e = mesh_->rotated(e);
+      } while (e != first);
+      break;
+    }
+    case Location::Kind::outside:
+    case Location::Kind::nowhere:
+      break;
+  }
+}
+
+bool FreeSpace::is_free(Point p) const {
+  std::vector<TriangleId> at;
+  triangles_at(p, at);
+  return !at.empty();
+}
+
+bool FreeSpace::is_reachable(Point from, Point to) const {
+  std::vector<TriangleId> starts;
+  std::vector<TriangleId> goals;
+  triangles_at(from, starts);
+  triangles_at(to, goals);
+  return std::ranges::any_of(starts, [&](TriangleId start) {
+    return std::ranges::any_of(
+        goals, [&](TriangleId goal) { return component(start) == component(goal); });
+  });
+}
+
+}  // namespace loft::paths

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "overlay/overlay.h"
+#include "paths/components.h"
+#include "paths/path.h"
+
+namespace loft::paths {
+
+using cdt::EdgeId;
+using cdt::TriangleId;
+using cdt::Triangulation;
+using cdt::VertexId;
+using overlay::LayerId;
+
+/// Where one can go: the places where an expression over the layers of an overlay is true, less
+/// walls, lines that nobody crosses. Kept up to date from edit to edit, with the components of what
+/// is free, so that it is known at once whether a way leads from one place to another.
+///
+/// What is free is closed: ways may touch obstacles and walls, run along them and turn at their
+/// corners. But **a passage without width is closed**: where two obstacles touch in a point,
+/// nothing goes through between them, and nothing through the end of a wall that touches another.
+///
+/// Cost of follow(): O(triangles made, or that are free now or no longer, and the degrees of their
+/// vertices), and for the components see there.
+///
+/// Reading from several threads at once is safe while nobody edits or follows.
+class FreeSpace {
+ public:
+  /// The overlay must outlive this and stay in its place; it watches the expression, and so an
+  /// expression that is true where no layer is, is refused: std::invalid_argument (subtract
+  /// obstacles from a frame). All rings and lines of the layers in `walls` are walls.
+  FreeSpace(overlay::Overlay& overlay, const overlay::Expression& free,
+            std::span<const LayerId> walls = {});
+  ~FreeSpace();
+  FreeSpace(const FreeSpace&) = delete;
+  FreeSpace& operator=(const FreeSpace&) = delete;
+
+  /// Takes over what the last edit, or batch, of the overlay did. After each of them, before
+  /// anything is asked; if one was left out, all is built anew.
+  void follow();
+  /// Whether there was an edit since.
+  [[nodiscard]] bool is_stale() const { return revision_ != overlay_->revision(); }
+
+  [[nodiscard]] const overlay::Overlay& overlay() const { return *overlay_; }
+  [[nodiscard]] const Triangulation& mesh() const { return *mesh_; }
+
+  [[nodiscard]] bool is_free(TriangleId t) const { return overlay_->is_in(free_, t); }
+  /// The twin of an edge, if it can be crossed from the triangle on its left; none otherwise.
+  [[nodiscard]] EdgeId beyond(EdgeId e) const { return beyond_[e.index()]; }
+  /// What is free around from(e), on the left of e, if ways turn there: it spans more than half a
+  /// turn. The last edge of it counter-clockwise that has it on its left; none if ways do not turn
+  /// there.
+  [[nodiscard]] EdgeId corner(EdgeId e) const { return corners_[e.index()]; }
+  /// What the last edit did to the border of what is free, walls not counted.
+  [[nodiscard]] const overlay::ResultChange& change() const { return overlay_->change(free_); }
+  /// The border of what is free, walls not counted.
+  [[nodiscard]] std::span<const overlay::BorderEdge> border() const {
+    return overlay_->border(free_);
+  }
+  /// Whether a wall runs along an edge.
+  [[nodiscard]] bool is_wall(EdgeId e) const;
+
+  /// The number of the component that a triangle belongs to; Components::none if it is not free.
+  [[nodiscard]] std::uint32_t component(TriangleId t) const { return components_.of(t); }
+  /// The free triangles that touch a point, put in `found`, in an order that depends on coordinates
+  /// alone; none if the point is inside an obstacle or outside of everything. Cost: to locate it,
+  /// and at a vertex its degree.
+  void triangles_at(Point p, std::vector<TriangleId>& found) const;
+  [[nodiscard]] bool is_free(Point p) const;
+  /// Whether a way leads from one point to another. Cost: to locate both.
+  [[nodiscard]] bool is_reachable(Point from, Point to) const;
+
+ private:
+  void build();
+  void touch(TriangleId t);
+  void open_sides(TriangleId t);
+  void turn_corners(VertexId v);
+
+  overlay::Overlay* overlay_;
+  const Triangulation* mesh_;
+  overlay::ResultId free_;
+  std::vector<bool> is_wall_layer_;
+  std::size_t revision_ = 0;
+  std::vector<EdgeId> beyond_;   // by edge
+  std::vector<EdgeId> corners_;  // by edge
+  Components components_;
+
+  // Of one update.
+  std::vector<TriangleId> touched_;
+  std::vector<bool> is_touched_;
+  std::vector<VertexId> around_;
+  std::vector<bool> is_around_;
+};
+
+}  // namespace loft::paths

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#include "paths/shortest.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/overlay/boxes.h"
+
+namespace loft::paths {
+namespace {
+
+using overlay::box;
+using overlay::Overlay;
+
+TEST(ShortestPath, GoesAroundABox) {
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  const LayerId boxes = overlay.add_layer("boxes");
+  overlay.insert(room, box(0, 0, 100, 100));
+  overlay.insert(boxes, box(40, 20, 60, 90));
+  const FreeSpace space(overlay, overlay::Expression(room) - boxes);
+  const Path path = shortest_path(space, {.from = {20, 50}, .to = {80, 50}});
+  ASSERT_EQ(path.status, Status::found);
+  const std::vector<Piece> expected{{.from = {20, 50}, .to = {40, 20}},
+                                    {.from = {40, 20}, .to = {60, 20}},
+                                    {.from = {60, 20}, .to = {80, 50}}};
+  EXPECT_EQ(path.pieces, expected);
+  EXPECT_DOUBLE_EQ(path.length, 20 + 2 * std::sqrt(1300));
+}
+
+}  // namespace
+}  // namespace loft::paths
