@@ -78,9 +78,23 @@ class DiscSearch {
   void turn_at(EdgeId corner, std::uint32_t root, const Circle& circle);
   void push(const Interval& interval);
   void push(double estimate, const Step& step);
-  void see_goal(std::uint32_t root, std::span<const Circle> corners, const Direction* left,
+  /// A corner of the goal's triangle. What a path has passed it may not leave on the other side.
+  struct Corner {
+    Circle circle;
+    double side = 1;  // 1 where the path keeps it on its left, -1 on its right
+    bool is_passed = false;
+  };
+
+  void see_goal(std::uint32_t root, std::span<const Corner> corners, const Direction* left,
                 const Direction* right);
-  void pull_to_goal(std::uint32_t root, std::span<const Circle> corners, int depth);
+  void pull_to_goal(std::uint32_t root, std::span<const Corner> corners, int depth);
+  [[nodiscard]] Corner left_corner(EdgeId e, bool is_passed) const {
+    return {on_left(e), 1, is_passed};
+  }
+  [[nodiscard]] Corner right_corner(EdgeId e, bool is_passed) const {
+    return {on_right(e), -1, is_passed};
+  }
+  [[nodiscard]] Corner corner_beside(Direction way_to_goal, EdgeId e) const;
   [[nodiscard]] bool comes_first(const Root& root, const Bound& bound, const Circle& other) const;
   void finish(std::uint32_t root, const Tangent& last);
   void put_together(Path& path) const;
