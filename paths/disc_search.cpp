@@ -16,6 +16,9 @@ namespace {
 /// Directions that differ by less are the same: several roundings.
 constexpr double same_direction = 0x1p-49;
 
+/// Angles that rounding does not come to.
+constexpr double least_turn_back = 0x1p-30;
+
 /// How far aside from a wall what is seen along it goes.
 constexpr double aside = 0x1p-20;
 
@@ -180,6 +183,13 @@ bool DiscSearch::is_goal(TriangleId t) const {
   return std::ranges::find(goals_, t) != goals_.end();
 }
 
+/// Whether a path would leave a circle before it comes there: another one does without it.
+bool DiscSearch::turns_back(const Root& root, Direction out) {
+  const double side = root.circle.radius > 0 ? 1 : -1;
+  return root.circle.radius != 0 && dot(root.in, out) > 0 &&
+         side * cross(root.in, out) < -least_turn_back;
+}
+
 double DiscSearch::length_to(const Root& root, Direction out) const {
   if (root.circle.radius == 0) return root.length;
   return root.length + std::max(0.0, root.circle.radius * angle_between(root.in, out));
@@ -315,6 +325,7 @@ bool DiscSearch::covers(const Best& best, const Root& other) const {
 void DiscSearch::turn_at(EdgeId e, std::uint32_t root, const Circle& circle) {
   if (gaps_->corner(e).is_none()) return;
   const Tangent there = tangent(roots_[root].circle, circle);
+  if (turns_back(roots_[root], there.along)) return;
   const Root next{circle,
                   there.along,
                   length_to(roots_[root], there.along) + there.length,

@@ -118,6 +118,7 @@ class DiscSearch {
   }
   /// The length of a path that leaves a root in a direction, up to there.
   [[nodiscard]] double length_to(const Root& root, Direction out) const;
+  [[nodiscard]] static bool turns_back(const Root& root, Direction out);
   /// Whether whatever goes on from `other` can as well go on from what is known.
   [[nodiscard]] bool covers(const Best& best, const Root& other) const;
   [[nodiscard]] std::uint32_t key_of(EdgeId e, bool is_left) const;
