@@ -2,6 +2,7 @@
 #include "paths/dead_ends.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace loft::paths {
 
@@ -23,6 +24,7 @@ void DeadEnds::build(const FreeSpace& space) {
   const auto triangles = static_cast<std::uint32_t>(space.mesh().triangle_bound());
   onward_.assign(triangles, core);
   marks_.assign(triangles, 0);
+  goals_here_.assign(triangles, 0);
   mark_ = 0;
   std::vector<std::uint8_t> open_sides(triangles);
   std::vector<TriangleId> ends;
@@ -52,9 +54,10 @@ void DeadEnds::mark(std::span<const TriangleId> goals) {
     std::ranges::fill(marks_, 0);
     mark_ = 1;
   }
+  goals_ = static_cast<std::uint32_t>(goals.size());
   for (const TriangleId goal : goals)
     for (std::uint32_t t = goal.index(); onward_[t] != core; t = onward_[t]) {
-      marks_[t] = mark_;
+      goals_here_[t] = std::exchange(marks_[t], mark_) == mark_ ? goals_here_[t] + 1 : 1;
       if (onward_[t] == root) break;
     }
 }

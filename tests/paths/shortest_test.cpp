@@ -29,5 +29,26 @@ TEST(ShortestPath, GoesAroundABox) {
   EXPECT_DOUBLE_EQ(path.length, 20 + 2 * std::sqrt(1300));
 }
 
+/// A corridor around a box, closed at its end where the goal is; which is nearer from outside.
+TEST(ShortestPath, LeavesADeadEndForAGoalThatTouchesItFromOutside) {
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  const LayerId boxes = overlay.add_layer("boxes");
+  const LayerId walls = overlay.add_layer("walls");
+  overlay.insert(room, box(0, 0, 100, 100));
+  overlay.insert(boxes, box(20, 50, 40, 80));
+  overlay.insert(walls, std::vector<Point>{{10, 50}, {10, 90}, {50, 90}, {50, 50}, {40, 50}},
+                 overlay::open);
+  const FreeSpace space(overlay, overlay::Expression(room) - boxes, std::vector{walls});
+  const Query query{.from = {15, 70}, .to = {40, 50}};
+  Workspace workspace;
+  Path path;
+  for (int i = 0; i < 100; ++i) {  // with time it knows where dead ends are
+    workspace.find(space, query, path);
+    ASSERT_EQ(path, shortest_path(space, query));
+    ASSERT_DOUBLE_EQ(path.length, std::sqrt(425) + 20);
+  }
+}
+
 }  // namespace
 }  // namespace loft::paths
