@@ -7,10 +7,8 @@
 namespace loft::paths {
 
 bool DeadEnds::prepare(const FreeSpace& space, std::size_t expansions) {
-  const std::size_t revision = space.overlay().revision();
-  if (space_ != &space || revision_ != revision) {
-    space_ = &space;
-    revision_ = revision;
+  if (state_ != space.state()) {
+    state_ = space.state();
     spent_ = 0;
     is_built_ = false;
   }

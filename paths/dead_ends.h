@@ -41,8 +41,7 @@ class DeadEnds {
     return marks_[t.index()] == mark_ && goals_here_[t.index()] == goals_;
   }
 
-  const FreeSpace* space_ = nullptr;
-  std::size_t revision_ = 0;
+  std::uint64_t state_ = 0;  // FreeSpace::state()
   std::size_t spent_ = 0;
   bool is_built_ = false;
   std::vector<std::uint32_t> onward_;      // by triangle: the next one towards the core

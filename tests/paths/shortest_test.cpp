@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "tests/overlay/boxes.h"
 
@@ -48,6 +49,27 @@ TEST(ShortestPath, LeavesADeadEndForAGoalThatTouchesItFromOutside) {
     ASSERT_EQ(path, shortest_path(space, query));
     ASSERT_DOUBLE_EQ(path.length, std::sqrt(425) + 20);
   }
+}
+
+TEST(ShortestPath, AWorkspaceKnowsASpaceFromAnotherInItsPlace) {
+  const auto box_at = [](Overlay& overlay, double x) {
+    const LayerId room = overlay.add_layer("room");
+    const LayerId boxes = overlay.add_layer("boxes");
+    overlay.insert(room, box(0, 0, 100, 100));
+    overlay.insert(boxes, box(x, 20, x + 20, 100));
+    return overlay::Expression(room) - boxes;
+  };
+  Overlay one;
+  Overlay other;
+  Workspace workspace;
+  Path path;
+  std::optional<FreeSpace> space;
+  space.emplace(one, box_at(one, 40));
+  for (int i = 0; i < 100; ++i) workspace.find(*space, {.from = {20, 50}, .to = {80, 50}}, path);
+  space.emplace(other, box_at(other, 10));
+  const Query query{.from = {5, 50}, .to = {80, 50}};
+  workspace.find(*space, query, path);
+  EXPECT_EQ(path, shortest_path(*space, query));
 }
 
 }  // namespace
