@@ -10,6 +10,7 @@
 #include "overlay/distance.h"
 #include "paths/distance.h"
 #include "paths/shortest.h"
+#include "tests/cdt/allocations.h"
 #include "tests/paths/grid_room.h"
 
 namespace loft::paths {
@@ -141,6 +142,16 @@ TEST(Sees, ExactlyWhatAPathOfOnePieceLeadsTo) {
   }
 }
 
+TEST(Sees, TakesNoMemory) {
+  const Room room({box(4, 4, 6, 6)}, {{{0, 2}, {10, 2}}});
+  const std::size_t before = cdt::allocation_count();
+  EXPECT_TRUE(sees(room.space, {1, 4}, {9, 4}));
+  EXPECT_FALSE(sees(room.space, {1, 4}, {9, 5}));
+  EXPECT_TRUE(sees(room.space, {1, 4}, {1, 4}));
+  EXPECT_TRUE(first_hit(room.space, {1, 2}, {9, 7}).has_value());
+  EXPECT_EQ(cdt::allocation_count(), before);
+}
+
 TEST(FirstHit, IsTheEdgeInTheWay) {
   const Room room({box(4, 4, 6, 6)});
   const Triangulation& mesh = room.space.mesh();
@@ -261,15 +272,19 @@ TEST(VisibleRegion, IsWhatOneSees) {
 
 TEST(VisibleRegion, HasARingForEachSector) {
   const Room room({box(4, 4, 6, 6)}, {{{0, 2}, {10, 2}}, {{5, 7}, {5, 9}}});
-  const Ring below{{0, 0}, {10, 0}, {10, 2}, {2, 2}, {0, 2}};
-  const auto on_wall = visible_region(room.space, {2, 2});
+  const auto on_wall = visible_region(room.space, {1, 2});
   ASSERT_EQ(on_wall.size(), 2U) << "both sides of a wall";
-  EXPECT_EQ(on_wall[0], below);
-  const Ring corner{{0, 2}, {4, 2}, {10, 2}, {10, 4}, {6, 4}, {4, 4}, {4, 6}, {4, 10}, {0, 10}};
-  EXPECT_EQ(visible_region(room.space, {4, 4}).size(), 1U);
-  const Ring all_around = visible_region(room.space, {5, 7}).at(0);
-  EXPECT_TRUE(std::ranges::find(all_around, Point(5, 7)) == all_around.end()) << "a wall's end";
+  EXPECT_EQ(on_wall[0], Ring({{0, 0}, {10, 0}, {10, 2}, {1, 2}, {0, 2}}));
+  EXPECT_EQ(on_wall[1].front(), Point(0, 2));
+  const Ring around{{0, 2}, {10, 2}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};
+  EXPECT_EQ(visible_region(room.space, {4, 4}), std::vector<Ring>{around}) << "a corner";
+  const auto all_around = visible_region(room.space, {5, 9});
+  ASSERT_EQ(all_around.size(), 1U) << "a wall's end";
+  EXPECT_EQ(std::ranges::count(all_around[0], Point(5, 9)), 0);
   EXPECT_TRUE(visible_region(room.space, {5, 5}).empty());
+  EXPECT_TRUE(visible_region(room.space, {5, 11}).empty());
+  const Room touching({box(2, 2, 5, 5), box(5, 5, 8, 8)});
+  EXPECT_EQ(visible_region(touching.space, {5, 5}).size(), 2U) << "obstacles touch there";
 }
 
 TEST(VisibleRegion, IsTheSameAfterAnyEdits) {
