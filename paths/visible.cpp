@@ -371,7 +371,7 @@ class Lookout {
   void close_ring(bool is_all_around) {
     if (!is_all_around) add(place_);
     while (ring_.size() > 1 && ring_.back() == ring_.front()) ring_.pop_back();
-    std::ranges::rotate(ring_, std::ranges::min_element(ring_));
+    std::rotate(ring_.begin(), std::ranges::min_element(ring_), ring_.end());
     rings_.push_back(std::move(ring_));
     ring_.clear();
   }

@@ -45,13 +45,13 @@ TEST(NearestFree, IsOnTheNearestSideOfAnObstacle) {
   overlay.insert(room, box(0, 0, 10, 10));
   overlay.insert(boxes, box(2, 2, 8, 6));
   FreeSpace space(overlay, overlay::Expression(room) - boxes);
-  EXPECT_EQ(nearest_free(space, {1, 1}), Point(1, 1)) << "it is free";
-  EXPECT_EQ(nearest_free(space, {2, 2}), Point(2, 2)) << "on the border, too";
-  EXPECT_EQ(nearest_free(space, {3, 4.5}), Point(2, 4.5));
-  EXPECT_EQ(nearest_free(space, {5, 5.5}), Point(5, 6));
-  EXPECT_EQ(nearest_free(space, {5, 4}), Point(5, 2)) << "of two as near, the first";
-  EXPECT_EQ(nearest_free(space, {-3, 4}), Point(0, 4)) << "outside of everything";
-  EXPECT_EQ(nearest_free(space, {14, 13}), Point(10, 10));
+  EXPECT_EQ(nearest_free(space, {1, 1}), (Point{1, 1})) << "it is free";
+  EXPECT_EQ(nearest_free(space, {2, 2}), (Point{2, 2})) << "on the border, too";
+  EXPECT_EQ(nearest_free(space, {3, 4.5}), (Point{2, 4.5}));
+  EXPECT_EQ(nearest_free(space, {5, 5.5}), (Point{5, 6}));
+  EXPECT_EQ(nearest_free(space, {5, 4}), (Point{5, 2})) << "of two as near, the first";
+  EXPECT_EQ(nearest_free(space, {-3, 4}), (Point{0, 4})) << "outside of everything";
+  EXPECT_EQ(nearest_free(space, {14, 13}), (Point{10, 10}));
   EXPECT_FALSE(nearest_free(space, {std::numeric_limits<double>::infinity(), 0}).has_value());
   overlay.insert(boxes, box(0, 0, 10, 10));
   EXPECT_THROW((void)nearest_free(space, {1, 1}), std::logic_error);
@@ -76,11 +76,11 @@ TEST(NearestReachable, IsOnThisSideOfAWall) {
   overlay.insert(room, box(0, 0, 10, 10));
   overlay.insert(walls, std::vector<Point>{{4, 0}, {4, 10}}, overlay::open);
   const FreeSpace space(overlay, room, std::vector{walls});
-  EXPECT_EQ(nearest_reachable(space, {1, 1}, {7, 3}), Point(4, 3));
-  EXPECT_EQ(nearest_reachable(space, {1, 1}, {12, 3}), Point(4, 3));
-  EXPECT_EQ(nearest_reachable(space, {1, 1}, {3, 3}), Point(3, 3));
-  EXPECT_EQ(nearest_reachable(space, {9, 1}, {-1, -1}), Point(4, 0));
-  EXPECT_EQ(nearest_reachable(space, {4, 1}, {7, 3}), Point(7, 3)) << "from both sides of a wall";
+  EXPECT_EQ(nearest_reachable(space, {1, 1}, {7, 3}), (Point{4, 3}));
+  EXPECT_EQ(nearest_reachable(space, {1, 1}, {12, 3}), (Point{4, 3}));
+  EXPECT_EQ(nearest_reachable(space, {1, 1}, {3, 3}), (Point{3, 3}));
+  EXPECT_EQ(nearest_reachable(space, {9, 1}, {-1, -1}), (Point{4, 0}));
+  EXPECT_EQ(nearest_reachable(space, {4, 1}, {7, 3}), (Point{7, 3})) << "from both sides of a wall";
   EXPECT_FALSE(nearest_reachable(space, {11, 1}, {7, 3}).has_value());
 }
 

@@ -157,13 +157,13 @@ TEST(FirstHit, IsTheEdgeInTheWay) {
   const Triangulation& mesh = room.space.mesh();
   const auto hit = first_hit(room.space, {1, 4.5}, {2, 4.75});
   ASSERT_TRUE(hit.has_value());
-  EXPECT_EQ(hit->place, Point(4, 5.25));
+  EXPECT_EQ(hit->place, (Point{4, 5.25}));
   EXPECT_DOUBLE_EQ(hit->distance, std::sqrt(9 + 0.5625));
-  EXPECT_EQ(mesh.point(mesh.from(hit->edge)), Point(4, 4)) << "what is free is on its left";
-  EXPECT_EQ(mesh.point(mesh.to(hit->edge)), Point(4, 6));
-  EXPECT_EQ(first_hit(room.space, {1, 4}, {2, 4})->place, Point(10, 4)) << "along a side";
-  EXPECT_EQ(first_hit(room.space, {2, 2}, {3, 3})->place, Point(4, 4)) << "a corner";
-  EXPECT_EQ(first_hit(room.space, {4, 5}, {5, 5})->place, Point(4, 5)) << "it cannot leave";
+  EXPECT_EQ(mesh.point(mesh.from(hit->edge)), (Point{4, 4})) << "what is free is on its left";
+  EXPECT_EQ(mesh.point(mesh.to(hit->edge)), (Point{4, 6}));
+  EXPECT_EQ(first_hit(room.space, {1, 4}, {2, 4})->place, (Point{10, 4})) << "along a side";
+  EXPECT_EQ(first_hit(room.space, {2, 2}, {3, 3})->place, (Point{4, 4})) << "a corner";
+  EXPECT_EQ(first_hit(room.space, {4, 5}, {5, 5})->place, (Point{4, 5})) << "it cannot leave";
   EXPECT_EQ(first_hit(room.space, {4, 4}, {5, 5})->distance, 0);
   EXPECT_EQ(first_hit(room.space, {10, 10}, {11, 12})->distance, 0);
   EXPECT_FALSE(first_hit(room.space, {5, 5}, {6, 5}).has_value());
@@ -263,7 +263,7 @@ TEST(VisibleRegion, IsWhatOneSees) {
           for (const Ring& ring : rings) place = std::max(place, place_in(ring, {x, y}));
           if (place == 0) continue;
           if (place < 0 && touches_vertex(space, p, {x, y})) continue;
-          ASSERT_EQ(sees(space, p, {x, y}), place > 0) << p << " to " << Point(x, y);
+          ASSERT_EQ(sees(space, p, {x, y}), place > 0) << p << " to " << Point{x, y};
         }
       }
     }
@@ -275,12 +275,12 @@ TEST(VisibleRegion, HasARingForEachSector) {
   const auto on_wall = visible_region(room.space, {1, 2});
   ASSERT_EQ(on_wall.size(), 2U) << "both sides of a wall";
   EXPECT_EQ(on_wall[0], Ring({{0, 0}, {10, 0}, {10, 2}, {1, 2}, {0, 2}}));
-  EXPECT_EQ(on_wall[1].front(), Point(0, 2));
+  EXPECT_EQ(on_wall[1].front(), (Point{0, 2}));
   const Ring around{{0, 2}, {10, 2}, {10, 4}, {4, 4}, {4, 10}, {0, 10}};
   EXPECT_EQ(visible_region(room.space, {4, 4}), std::vector<Ring>{around}) << "a corner";
   const auto all_around = visible_region(room.space, {5, 9});
   ASSERT_EQ(all_around.size(), 1U) << "a wall's end";
-  EXPECT_EQ(std::ranges::count(all_around[0], Point(5, 9)), 0);
+  EXPECT_EQ(std::ranges::count(all_around[0], (Point{5, 9})), 0);
   EXPECT_TRUE(visible_region(room.space, {5, 5}).empty());
   EXPECT_TRUE(visible_region(room.space, {5, 11}).empty());
   const Room touching({box(2, 2, 5, 5), box(5, 5, 8, 8)});
