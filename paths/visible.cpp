@@ -364,15 +364,21 @@ class Lookout {
     add(view.left == b ? b : cdt::intersection(place_, view.left, a, b));
   }
 
+  /// Where what is seen between two rays is too narrow for doubles, the ring would only go there
+  /// and back.
   void add(Point p) {
-    if (ring_.empty() || ring_.back() != p) ring_.push_back(p);
+    if (!ring_.empty() && ring_.back() == p) return;
+    if (ring_.size() > 1 && ring_[ring_.size() - 2] == p) return ring_.pop_back();
+    ring_.push_back(p);
   }
 
   void close_ring(bool is_all_around) {
     if (!is_all_around) add(place_);
-    while (ring_.size() > 1 && ring_.back() == ring_.front()) ring_.pop_back();
+    const Point first = ring_.front();
+    add(first);
+    if (ring_.back() == first) ring_.pop_back();
     std::rotate(ring_.begin(), std::ranges::min_element(ring_), ring_.end());
-    rings_.push_back(std::move(ring_));
+    if (ring_.size() > 2) rings_.push_back(std::move(ring_));
     ring_.clear();
   }
 

@@ -50,7 +50,8 @@ struct Hit {
 /// counter-clockwise and star-shaped around p, and have p as a corner where the sector is less than
 /// a full turn. Each begins at its smallest point, and they are sorted. Their corners are vertices,
 /// and rounded where a ray past a vertex meets an edge further away; which these are is decided
-/// exactly. None if p is not free.
+/// exactly. By as much as that rounds, a ring may touch or cross itself where what is seen is no
+/// wider. None if p is not free.
 ///
 /// Cost: to locate p, then the triangles seen, those that are seen in several parts once for each.
 [[nodiscard]] std::vector<overlay::Ring> visible_region(const FreeSpace& space, Point p);
