@@ -2,6 +2,7 @@
 #include "paths/disc_search.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,12 @@ namespace {
 
 /// Directions that differ by less are the same: several roundings.
 constexpr double same_direction = 0x1p-49;
+
+/// How far aside from a wall what is seen along it goes.
+constexpr double aside = 0x1p-20;
+
+/// On the last way to the goal, within its triangle.
+constexpr int most_bends = 3;
 
 [[nodiscard]] Direction way(Point from, Point to) { return {to.x - from.x, to.y - from.y}; }
 
@@ -97,10 +104,13 @@ void DiscSearch::start(TriangleId t) {
   for (unsigned corner = 1; corner < 3; ++corner)
     if (from(Triangulation::edge(t, corner)) < from(first)) first = Triangulation::edge(t, corner);
   if (is_goal(t)) {
-    // None of the corners is nearer to the way than to its ends, or it has to bend.
-    see_goal(0, nullptr, nullptr, first);
-    see_goal(0, nullptr, nullptr, Triangulation::next(first));
-    see_goal(0, nullptr, nullptr, Triangulation::prev(first));
+    const Direction there = tangent(roots_[0].circle, {goal_, 0}).along;
+    std::array<Circle, 3> corners;
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(t, corner);
+      corners[corner] = cross(there, way(goal_, from(e))) > 0 ? on_left(e) : on_right(e);
+    }
+    see_goal(0, corners, nullptr, nullptr);
   }
   EdgeId e = first;
   do {
@@ -120,22 +130,26 @@ void DiscSearch::start_through(EdgeId e) {
   const EdgeId at_third = Triangulation::prev(e);
   const Interval seen{.edge = entry,
                       .root = 0,
-                      .left = bound(roots_[0], on_left(at_left)),
-                      .right = bound(roots_[0], on_right(e))};
+                      .left = left_bound(roots_[0], at_left),
+                      .right = right_bound(roots_[0], e)};
   Interval rest = seen;
+  // Within a quarter of a turn beyond an end of the view, and reaching into it.
   const auto is_in_the_way = [&](const Bound& third, const Bound& end, double side) {
-    return side * cross(end.along, third.along) < 0 && dot(end.along, third.along) > 0;
+    const Direction to_end = way(roots_[0].circle.centre, end.circle.centre);
+    const Direction to_third = way(roots_[0].circle.centre, third.circle.centre);
+    return side * cross(to_end, to_third) > 0 && dot(to_end, to_third) > 0 &&
+           side * cross(end.along, third.along) < 0;
   };
-  const Bound third_left = bound(roots_[0], on_left(at_third));
-  const Bound third_right = bound(roots_[0], on_right(at_third));
+  const Bound third_left = left_bound(roots_[0], at_third);
+  const Bound third_right = right_bound(roots_[0], at_third);
   const auto bend = [&](const Bound& third) {
     const auto root = static_cast<std::uint32_t>(roots_.size());
     const Tangent there = tangent(roots_[0].circle, third.circle);
     roots_.push_back({third.circle, there.along, there.length, 0, none, names_++});
     Interval turned = seen;
     turned.root = root;
-    turned.left = bound(roots_[root], seen.left.circle);
-    turned.right = bound(roots_[root], seen.right.circle);
+    turned.left = left_bound(roots_[root], at_left);
+    turned.right = right_bound(roots_[root], e);
     Bound& near = third.circle.radius > 0 ? turned.right : turned.left;
     const double side = third.circle.radius > 0 ? 1 : -1;
     if (side * cross(near.along, there.along) > 0) near = {near.circle, there.along, false};
@@ -150,10 +164,16 @@ void DiscSearch::start_through(EdgeId e) {
   }
   if (cross(rest.right.along, rest.left.along) > 0) push(rest);
   // What the sides of the view hide of each other.
-  else if (rest.left.is_at_end && rest.right.is_at_end) {
-    turn_at(Triangulation::next(entry), 0, rest.right.circle);
+  else if (rest.left.is_at_end && comes_first(roots_[0], rest.left, rest.right.circle))
     turn_at(entry, 0, rest.left.circle);
-  }
+  else if (rest.right.is_at_end)
+    turn_at(Triangulation::next(entry), 0, rest.right.circle);
+}
+
+/// Whether a path along a bound touches its circle before it would come to another.
+bool DiscSearch::comes_first(const Root& root, const Bound& bound, const Circle& other) const {
+  const Point start = Tangent{bound.along, 0}.touch(root.circle);
+  return dot(bound.along, way(start, other.centre)) >= tangent(root.circle, bound.circle).length;
 }
 
 bool DiscSearch::is_goal(TriangleId t) const {
@@ -165,33 +185,40 @@ double DiscSearch::length_to(const Root& root, Direction out) const {
   return root.length + std::max(0.0, root.circle.radius * angle_between(root.in, out));
 }
 
-/// The goal is in a triangle that a root sees between two directions; its corner at `apex` has not
-/// been passed.
-void DiscSearch::see_goal(std::uint32_t root, const Direction* left, const Direction* right,
-                          EdgeId apex) {
-  const Tangent there = tangent(roots_[root].circle, {goal_, 0});
-  const auto is_between = [&](Direction along) {
-    return (left == nullptr || cross(*left, along) <= same_direction) &&
-           (right == nullptr || cross(*right, along) >= -same_direction);
-  };
-  const Direction to_apex = way(goal_, from(apex));
-  const double aside = cross(there.along, to_apex);
-  const double back = -dot(there.along, to_apex);
-  const double radius = radius_at(apex);
-  const bool is_in_the_way =
-      back > 0 && back < there.length && std::abs(aside) < radius * (1 - 0x1p-45);
-  if (!is_in_the_way) {
-    if (is_between(there.along)) finish(root, there);
-    return;
+/// The goal is in a triangle that a root sees between two directions, or from one, or one, on.
+/// `corners`: of the triangle.
+void DiscSearch::see_goal(std::uint32_t root, std::span<const Circle> corners,
+                          const Direction* left, const Direction* right) {
+  const Direction there = tangent(roots_[root].circle, {goal_, 0}).along;
+  if (left != nullptr && cross(*left, there) > same_direction) return;
+  if (right != nullptr && cross(*right, there) < -same_direction) return;
+  pull_to_goal(root, corners, 0);
+}
+
+/// Straight to the goal, or around what is in the way.
+void DiscSearch::pull_to_goal(std::uint32_t root, std::span<const Circle> corners, int depth) {
+  const Root from = roots_[root];
+  const Tangent there = tangent(from.circle, {goal_, 0});
+  double worst = -0x1p-45 * radius_;
+  const Circle* in_the_way = nullptr;
+  for (const Circle& corner : corners) {
+    if (corner.radius == 0 || corner.centre == from.circle.centre) continue;
+    const Direction to_corner = way(goal_, corner.centre);
+    const double back = -dot(there.along, to_corner);
+    if (back <= 0 || back >= there.length) continue;
+    const double side = corner.radius > 0 ? 1 : -1;
+    const double room = side * cross(there.along, to_corner) - radius_;
+    if (room >= worst) continue;
+    worst = room;
+    in_the_way = &corner;
   }
-  const Circle circle{from(apex), aside > 0 ? radius : -radius};
-  const Tangent first = tangent(roots_[root].circle, circle);
-  const Tangent second = tangent(circle, {goal_, 0});
-  if (!is_between(first.along) || circle.radius * cross(first.along, second.along) < 0) return;
-  const double length = length_to(roots_[root], first.along) + first.length;
+  if (in_the_way == nullptr) return finish(root, there);
+  if (depth == most_bends) return;
+  const Tangent first = tangent(from.circle, *in_the_way);
+  const double length = length_to(from, first.along) + first.length;
   const auto bend = static_cast<std::uint32_t>(roots_.size());
-  roots_.push_back({circle, first.along, length, root, none, names_++});
-  finish(bend, second);
+  roots_.push_back({*in_the_way, first.along, length, root, none, names_++});
+  pull_to_goal(bend, corners, depth + 1);
 }
 
 void DiscSearch::finish(std::uint32_t root, const Tangent& last) {
@@ -212,15 +239,34 @@ void DiscSearch::expand(const Interval& interval) {
     const Best& best = best_[root.key];
     if (best.name != root.name && covers(best, root)) return;
   }
-  if (is_goal(t)) see_goal(interval.root, &interval.left.along, &interval.right.along, at_apex);
+  if (is_goal(t)) {
+    const Direction there = tangent(root.circle, {goal_, 0}).along;
+    const bool is_apex_left = cross(there, way(goal_, from(at_apex))) > 0;
+    const std::array<Circle, 3> corners{on_left(e), on_right(at_right),
+                                        is_apex_left ? on_left(at_apex) : on_right(at_apex)};
+    see_goal(interval.root, corners, interval.left.is_at_end ? nullptr : &interval.left.along,
+             interval.right.is_at_end ? nullptr : &interval.right.along);
+  }
 
-  const Bound apex_left = bound(root, on_left(at_apex));
-  const Bound apex_right = bound(root, on_right(at_apex));
+  const Bound apex_left = left_bound(root, at_apex);
+  const Bound apex_right = right_bound(root, at_apex);
   const bool sees_left = cross(interval.left.along, apex_right.along) < 0;
   const bool sees_right = cross(interval.right.along, apex_left.along) > 0;
-  if (!sees_left && interval.left.is_at_end) turn_at(e, interval.root, interval.left.circle);
-  if (!sees_right && interval.right.is_at_end)
-    turn_at(at_right, interval.root, interval.right.circle);
+  // What is between the end of the view and the apex is seen from the one that comes first.
+  if (!sees_left && interval.left.is_at_end) {
+    const bool is_first = comes_first(root, interval.left, apex_right.circle);
+    if (is_first || cross(interval.left.along, apex_left.along) > 0)
+      turn_at(e, interval.root, interval.left.circle);
+    if (const EdgeId left = beyond(at_apex); !is_first && !left.is_none())
+      turn_at(Triangulation::next(left), interval.root, apex_right.circle);
+  }
+  if (!sees_right && interval.right.is_at_end) {
+    const bool is_first = comes_first(root, interval.right, apex_left.circle);
+    if (is_first || cross(interval.right.along, apex_right.along) < 0)
+      turn_at(at_right, interval.root, interval.right.circle);
+    if (const EdgeId right = beyond(at_right); !is_first && !right.is_none())
+      turn_at(right, interval.root, apex_left.circle);
+  }
 
   if (const EdgeId left = beyond(at_apex); sees_left && !left.is_none()) {
     Interval on{left, interval.root, interval.left, interval.right};
@@ -250,27 +296,23 @@ std::uint32_t DiscSearch::key_of(EdgeId e, bool is_left) const {
 }
 
 bool DiscSearch::covers(const Best& best, const Root& other) const {
-  const double turn = other.circle.radius * angle_between(best.in, other.in);
-  return turn >= -same_direction * radius_ && best.length + turn <= other.length;
+  return best.length + radius_ * std::abs(angle_between(best.in, other.in)) <= other.length;
 }
 
 /// A path comes to a circle around from(e), to bend around it in the triangle left of e.
 void DiscSearch::turn_at(EdgeId e, std::uint32_t root, const Circle& circle) {
-  if (circle.radius == 0) return;
+  if (gaps_->corner(e).is_none()) return;
   const Tangent there = tangent(roots_[root].circle, circle);
-  Root next{circle,
-            there.along,
-            length_to(roots_[root], there.along) + there.length,
-            root,
-            key_of(e, circle.radius > 0),
-            names_};
+  const Root next{circle,
+                  there.along,
+                  length_to(roots_[root], there.along) + there.length,
+                  root,
+                  key_of(e, circle.radius > 0),
+                  names_++};
   Best& best = best_[next.key];
   if (best.search == search_ && covers(best, next)) return;
-  ++names_;
-  const bool is_better =
-      best.search != search_ || covers({next.length, next.in, next.name, search_},
-                                       {circle, best.in, best.length, none, none, 0});
-  if (is_better) best = {next.length, next.in, next.name, search_};
+  if (best.search != search_ || next.length < best.length)
+    best = {next.length, next.in, next.name, search_};
   const double estimate = next.length + length_of(way(there.touch(circle), goal_)) * (1 - 0x1p-48);
   if (estimate >= length_) return;
   push(estimate, {.interval = {}, .bend = {e, next}, .is_bend = true});
@@ -285,27 +327,41 @@ void DiscSearch::expand(const Bend& bend) {
   const Root root = bend.root;
   const bool is_left = root.circle.radius > 0;
   const double side = is_left ? 1 : -1;
+  // The tangent along which it came, or to what is passed on the other side, whichever bounds more.
+  Bound near{root.circle, root.in, false};
   EdgeId e = bend.edge;
   for (bool is_first = true;; is_first = false) {
     const EdgeId at_right = Triangulation::next(e);
     const EdgeId at_left = Triangulation::prev(e);
-    const Direction near = way(root.circle.centre, from(is_left ? at_right : at_left));
-    if (!is_first && side * cross(root.in, near) < 0 && dot(root.in, near) < 0) return;
-    Bound left = bound(root, on_left(at_left));
-    Bound right = bound(root, on_right(at_right));
-    Bound& first = is_left ? right : left;
-    if (side * cross(first.along, root.in) >= 0 || is_first) first = {first.circle, root.in, false};
-    if (is_goal(Triangulation::triangle(e)))
-      see_goal(number, is_left ? nullptr : &root.in, is_left ? &root.in : nullptr,
-               is_left ? at_left : at_right);
-    const EdgeId entry = beyond(at_right);
-    if (!entry.is_none()) {
-      if (cross(right.along, left.along) > 0)
-        push(Interval{entry, number, left, right});
-      else if (first.is_at_end)
-        turn_at(is_left ? at_right : at_left, number, first.circle);
-    }
+    const EdgeId at_near = is_left ? at_right : at_left;
+    const Direction to_near = way(root.circle.centre, from(at_near));
+    if (!is_first && side * cross(root.in, to_near) < 0 && dot(root.in, to_near) < 0) return;
+    const Bound next = is_left ? right_bound(root, at_near) : left_bound(root, at_near);
+    if (side * cross(near.along, next.along) > 0)
+      near = next;
+    else
+      near.is_at_end = false;
+    Bound far = is_left ? left_bound(root, at_left) : right_bound(root, at_right);
     const EdgeId twin = beyond(is_left ? at_left : e);
+    // Along a wall from here, not through it, and a bit aside: corners on it come first.
+    if (far.circle.radius == 0 && twin.is_none()) {
+      const Direction along = tangent(root.circle, {far.circle.centre, root.circle.radius}).along;
+      far.along = {along.x - side * aside * along.y, along.y + side * aside * along.x};
+    }
+    if (is_goal(Triangulation::triangle(e))) {
+      const Direction* const limit = near.is_at_end ? nullptr : &near.along;
+      see_goal(number, std::array{on_left(at_left), on_right(at_right)}, is_left ? nullptr : limit,
+               is_left ? limit : nullptr);
+    }
+    const EdgeId entry = beyond(at_right);
+    if (side * cross(near.along, far.along) > 0) {
+      if (!entry.is_none())
+        push(is_left ? Interval{entry, number, far, near} : Interval{entry, number, near, far});
+    } else if (near.is_at_end && comes_first(root, near, far.circle)) {
+      turn_at(at_near, number, near.circle);
+    } else if (near.is_at_end && !entry.is_none()) {
+      turn_at(is_left ? entry : Triangulation::next(entry), number, far.circle);
+    }
     if (twin.is_none()) return;
     e = is_left ? twin : Triangulation::next(twin);
     if (e == bend.edge) return;
@@ -334,10 +390,13 @@ double DiscSearch::estimate(const Interval& interval) const {
     goal = {goal.x + by * edge.y, goal.y - by * edge.x};
   }
   const Tangent there = tangent(root.circle, {goal, 0});
-  if (cross(interval.left.along, there.along) > 0)
-    return through_bound(root, interval.left, a, b, goal);
-  if (cross(interval.right.along, there.along) < 0)
-    return through_bound(root, interval.right, a, b, goal);
+  // A circle at the end does not matter if the goal comes before it.
+  const auto is_bound = [&](const Bound& bound, double side) {
+    return side * cross(bound.along, there.along) > 0 &&
+           !(bound.is_at_end && !comes_first(root, bound, {goal, 0}));
+  };
+  if (is_bound(interval.left, 1)) return through_bound(root, interval.left, a, b, goal);
+  if (is_bound(interval.right, -1)) return through_bound(root, interval.right, a, b, goal);
   return (length_to(root, there.along) + there.length) * (1 - 0x1p-48);
 }
 

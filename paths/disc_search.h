@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "paths/directions.h"
@@ -76,7 +78,10 @@ class DiscSearch {
   void turn_at(EdgeId corner, std::uint32_t root, const Circle& circle);
   void push(const Interval& interval);
   void push(double estimate, const Step& step);
-  void see_goal(std::uint32_t root, const Direction* left, const Direction* right, EdgeId apex);
+  void see_goal(std::uint32_t root, std::span<const Circle> corners, const Direction* left,
+                const Direction* right);
+  void pull_to_goal(std::uint32_t root, std::span<const Circle> corners, int depth);
+  [[nodiscard]] bool comes_first(const Root& root, const Bound& bound, const Circle& other) const;
   void finish(std::uint32_t root, const Tangent& last);
   void put_together(Path& path) const;
 
@@ -89,8 +94,13 @@ class DiscSearch {
   [[nodiscard]] Point from(EdgeId e) const { return mesh_->point(mesh_->from(e)); }
   [[nodiscard]] Circle on_left(EdgeId e) const { return {from(e), radius_at(e)}; }
   [[nodiscard]] Circle on_right(EdgeId e) const { return {from(e), -radius_at(e)}; }
-  [[nodiscard]] Bound bound(const Root& root, const Circle& circle) const {
-    return {circle, tangent(root.circle, circle).along, true};
+  /// The bound at from(e). Where ways do not turn, at feet and in hollow corners, that is a point:
+  /// what is beside it bounds more.
+  [[nodiscard]] Bound left_bound(const Root& root, EdgeId e) const {
+    return {on_left(e), tangent(root.circle, on_left(e)).along, true};
+  }
+  [[nodiscard]] Bound right_bound(const Root& root, EdgeId e) const {
+    return {on_right(e), tangent(root.circle, on_right(e)).along, true};
   }
   /// The length of a path that leaves a root in a direction, up to there.
   [[nodiscard]] double length_to(const Root& root, Direction out) const;
