@@ -164,7 +164,7 @@ void DiscSearch::start_through(EdgeId e) {
     bend(third_right);
   }
   const double room = cross(rest.right.along, rest.left.along);
-  if (room >= -same_direction) push(rest);
+  if (room >= -same_direction || is_hollow(rest.left) || is_hollow(rest.right)) push(rest);
   if (room > same_direction) return;
   // What the sides of the view hide of each other.
   if (rest.left.is_at_end && comes_first(roots_[0], rest.left, rest.right.circle))
@@ -183,7 +183,7 @@ bool DiscSearch::is_goal(TriangleId t) const {
   return std::ranges::find(goals_, t) != goals_.end();
 }
 
-/// Whether a path would leave a circle before it comes there: another one does without it.
+/// Whether a path would leave a circle before it comes there.
 bool DiscSearch::turns_back(const Root& root, Direction out) {
   const double side = root.circle.radius > 0 ? 1 : -1;
   return root.circle.radius != 0 && dot(root.in, out) > 0 &&
@@ -272,8 +272,8 @@ void DiscSearch::expand(const Interval& interval) {
   // Where bounds fall together both may be: what is seen, and what is beyond.
   const double left_room = -cross(interval.left.along, apex_right.along);
   const double right_room = cross(interval.right.along, apex_left.along);
-  const bool sees_left = left_room >= -same_direction;
-  const bool sees_right = right_room >= -same_direction;
+  const bool sees_left = left_room >= -same_direction || is_hollow(interval.left);
+  const bool sees_right = right_room >= -same_direction || is_hollow(interval.right);
   // What is between the end of the view and the apex is seen from the one that comes first.
   if (left_room <= same_direction && interval.left.is_at_end) {
     const bool is_first = comes_first(root, interval.left, apex_right.circle);
@@ -324,8 +324,12 @@ bool DiscSearch::covers(const Best& best, const Root& other) const {
 /// A path comes to a circle around from(e), to bend around it in the triangle left of e.
 void DiscSearch::turn_at(EdgeId e, std::uint32_t root, const Circle& circle) {
   if (gaps_->corner(e).is_none()) return;
-  const Tangent there = tangent(roots_[root].circle, circle);
-  if (turns_back(roots_[root], there.along)) return;
+  Tangent there = tangent(roots_[root].circle, circle);
+  // A circle that would be left before it is come to is not on the way.
+  while (turns_back(roots_[root], there.along)) {
+    root = roots_[root].before;
+    there = tangent(roots_[root].circle, circle);
+  }
   const Root next{circle,
                   there.along,
                   length_to(roots_[root], there.along) + there.length,
@@ -378,7 +382,7 @@ void DiscSearch::expand(const Bend& bend) {
     }
     const EdgeId entry = beyond(at_right);
     const double room = side * cross(near.along, far.along);
-    if (room >= -same_direction && !entry.is_none())
+    if ((room >= -same_direction || is_hollow(near)) && !entry.is_none())
       push(is_left ? Interval{entry, number, far, near} : Interval{entry, number, near, far});
     if (room > same_direction) {
       // Nothing is hidden.

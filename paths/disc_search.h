@@ -118,6 +118,11 @@ class DiscSearch {
   }
   /// The length of a path that leaves a root in a direction, up to there.
   [[nodiscard]] double length_to(const Root& root, Direction out) const;
+  /// Whether a bound is at a point where ways do not turn. Where it crosses the other one, a corner
+  /// behind it on the same side may be what the path turns at: what is seen goes on until that.
+  [[nodiscard]] static bool is_hollow(const Bound& bound) {
+    return bound.is_at_end && bound.circle.radius == 0;
+  }
   [[nodiscard]] static bool turns_back(const Root& root, Direction out);
   /// Whether whatever goes on from `other` can as well go on from what is known.
   [[nodiscard]] bool covers(const Best& best, const Root& other) const;
