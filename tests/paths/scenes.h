@@ -101,18 +101,17 @@ class SceneMaker {
     const std::size_t points = 2 + index(3);
     while (line.size() < points) {
       const Point last = line.back();
-      const Point next = number() < 0.3 ? place_on(scene)
-                                        : rounded({last.x + number(-1, 1) * 2 * reach_,
-                                                   last.y + number(-1, 1) * 2 * reach_});
+      const Point next =
+          number() < 0.3
+              ? place_on(scene)
+              : rounded({last.x + number(-1, 1) * 2 * reach_, last.y + number(-1, 1) * 2 * reach_});
       if (next != last) line.push_back(next);
     }
     return line;
   }
 
   /// Anywhere in a room.
-  [[nodiscard]] Point place() {
-    return rounded({number(0, Scene::size), number(0, Scene::size)});
-  }
+  [[nodiscard]] Point place() { return rounded({number(0, Scene::size), number(0, Scene::size)}); }
 
   /// A corner of something, or halfway between two that follow each other.
   [[nodiscard]] Point place_on(const Scene& scene) {
@@ -120,8 +119,7 @@ class SceneMaker {
     if (count == 0) return place();
     const std::size_t i = index(count);
     const bool is_obstacle = i < scene.obstacles.size();
-    const Ring& ring =
-        is_obstacle ? scene.obstacles[i] : scene.walls[i - scene.obstacles.size()];
+    const Ring& ring = is_obstacle ? scene.obstacles[i] : scene.walls[i - scene.obstacles.size()];
     const std::size_t k = index(ring.size());
     return number() < 0.5 || k + 1 == ring.size() ? ring[k] : middle(ring[k], ring[k + 1]);
   }
@@ -166,8 +164,7 @@ class SceneMaker {
     for (int half = 0; half < 2; ++half) {
       const std::size_t start = hull.size();
       for (const Point p : points) {
-        while (hull.size() >= start + 2 &&
-               cdt::orient(hull[hull.size() - 2], hull.back(), p) <= 0)
+        while (hull.size() >= start + 2 && cdt::orient(hull[hull.size() - 2], hull.back(), p) <= 0)
           hull.pop_back();
         hull.push_back(p);
       }

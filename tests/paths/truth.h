@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <limits>
 #include <map>
 #include <optional>
 #include <queue>
@@ -74,8 +76,7 @@ class Truth {
       queue.push({length, {place, wedge}});
     };
     if (from == to) return 0;
-    for (const Link& link : links_between(start, goal))
-      shortest = std::min(shortest, link.length);
+    for (const Link& link : links_between(start, goal)) shortest = std::min(shortest, link.length);
     for (std::uint32_t p = 0; p < places_.size(); ++p)
       for (const Link& link : links_between(start, places_[p])) reach(p, link.there, link.length);
     while (!queue.empty()) {
@@ -196,8 +197,8 @@ class Truth {
       if (const auto at = find(p)) return places_[*at];
     Place place{p, {}, {}};
     for (const Barrier& b : barriers_) {
-      const bool is_inside =
-          p != b.from && p != b.to && is_between(b.from, p, b.to) && cdt::orient(b.from, b.to, p) == 0;
+      const bool is_inside = p != b.from && p != b.to && is_between(b.from, p, b.to) &&
+                             cdt::orient(b.from, b.to, p) == 0;
       if (p == b.from || is_inside) place.rays.push_back({b.to, b.is_free.first});
       if (p == b.to || is_inside) place.rays.push_back({b.from, b.is_free.second});
     }
@@ -249,8 +250,8 @@ class Truth {
     const double length = length_between(a.at, b.at);
     const auto add = [&](std::size_t here, std::size_t other) {
       if (a.wedges[here] && b.wedges[other])
-        links.push_back({0, static_cast<std::uint32_t>(here), static_cast<std::uint32_t>(other),
-                         length});
+        links.push_back(
+            {0, static_cast<std::uint32_t>(here), static_cast<std::uint32_t>(other), length});
     };
     if (there.is_along) {
       const Point end = a.rays[there.index].to;
