@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: MIT
+#include "paths/channel.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+
+#include "cdt/predicates.h"
+#include "paths/directions.h"
+
+namespace loft::paths {
+
+namespace {
+
+[[nodiscard]] Direction towards(Point from, Point to) { return {to.x - from.x, to.y - from.y}; }
+[[nodiscard]] double straight(Point from, Point to) { return length_of(towards(from, to)); }
+
+/// The mirror image of p in the line ab.
+[[nodiscard]] Point reflected(Point a, Point b, Point p) {
+  const Direction along = towards(a, b);
+  const double by = 2 * cross(along, towards(a, p)) / dot(along, along);
+  return {p.x + by * along.y, p.y - by * along.x};
+}
+
+/// The first found is first of those with the same estimate.
+struct IsLessPromising {
+  template <class Entry>
+  bool operator()(const Entry& a, const Entry& b) const {
+    return a.estimate != b.estimate ? a.estimate > b.estimate : a.entrance > b.entrance;
+  }
+};
+
+}  // namespace
+
+void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& channel) {
+  if (space.is_stale())
+    throw std::logic_error("paths: the free space has not followed the overlay's last edit");
+  channel.from = from;
+  channel.to = to;
+  channel.triangles.clear();
+  channel.portals.clear();
+  expansions_ = 0;
+  space.triangles_at(from, starts_);
+  space.triangles_at(to, goals_);
+  if (starts_.empty() || goals_.empty()) {
+    channel.status = starts_.empty() ? Status::start_blocked : Status::goal_blocked;
+    return;
+  }
+  const auto leads_on = [&](TriangleId t, const std::vector<TriangleId>& others) {
+    return std::ranges::any_of(
+        others, [&](TriangleId other) { return space.component(t) == space.component(other); });
+  };
+  std::erase_if(starts_, [&](TriangleId t) { return !leads_on(t, goals_); });
+  std::erase_if(goals_, [&](TriangleId t) { return !leads_on(t, starts_); });
+  if (starts_.empty()) {
+    channel.status = Status::unreachable;
+    return;
+  }
+  channel.status = Status::found;
+  if (const auto both = std::ranges::find_if(starts_, [&](TriangleId t) { return is_goal(t); });
+      both != starts_.end()) {
+    channel.triangles.push_back(*both);
+    return;
+  }
+  begin(space, from, to);
+  for (const TriangleId t : starts_) start(t);
+  while (!heap_.empty() && heap_.front().estimate < length_) {
+    const std::uint32_t next = heap_.front().entrance;
+    std::ranges::pop_heap(heap_, IsLessPromising());
+    heap_.pop_back();
+    expand(next);
+  }
+  (void)dead_ends_.prepare(space, expansions_);
+  put_together(channel);
+}
+
+void ChannelSearch::begin(const FreeSpace& space, Point from, Point to) {
+  space_ = &space;
+  mesh_ = &space.mesh();
+  from_ = from;
+  to_ = to;
+  length_ = std::numeric_limits<double>::infinity();
+  last_ = none;
+  knows_dead_ends_ = dead_ends_.prepare(space, 0);
+  if (knows_dead_ends_) dead_ends_.mark(goals_);
+  entrances_.clear();
+  heap_.clear();
+  if (best_.size() < mesh_->edge_bound()) best_.resize(mesh_->edge_bound());
+  if (positions_.size() < mesh_->triangle_bound()) positions_.resize(mesh_->triangle_bound());
+  if (++search_ == 0) {
+    std::ranges::fill(best_, Best());
+    search_ = 1;
+  }
+}
+
+bool ChannelSearch::is_goal(TriangleId t) const {
+  return std::ranges::find(goals_, t) != goals_.end();
+}
+
+/// The twin of an edge, if a channel may go there.
+EdgeId ChannelSearch::beyond(EdgeId e) const {
+  const EdgeId entry = space_->beyond(e);
+  if (!knows_dead_ends_ || entry.is_none()) return entry;
+  const bool leads_on =
+      dead_ends_.leads_on(Triangulation::triangle(e), Triangulation::triangle(entry));
+  return leads_on ? entry : EdgeId::none();
+}
+
+/// Over the sides of a triangle that the start is in, but for those that it is on.
+void ChannelSearch::start(TriangleId t) {
+  EdgeId first = Triangulation::edge(t);
+  for (unsigned corner = 1; corner < 3; ++corner) {
+    const EdgeId e = Triangulation::edge(t, corner);
+    if (mesh_->point(mesh_->from(e)) < mesh_->point(mesh_->from(first))) first = e;
+  }
+  EdgeId e = first;
+  do {
+    const Point left = mesh_->point(mesh_->to(e));
+    const Point right = mesh_->point(mesh_->from(e));
+    const EdgeId entry = beyond(e);
+    if (!entry.is_none() && cdt::orient(right, left, from_) > 0)
+      enter({.edge = entry, .root = from_, .left = left, .right = right});
+    e = Triangulation::next(e);
+  } while (e != first);
+}
+
+/// From a triangle over its two other sides.
+void ChannelSearch::expand(std::uint32_t index) {
+  const Entrance here = entrances_[index];
+  const EdgeId e = here.edge;
+  if (best_[e.index()].estimate < estimate(here)) return;
+  ++expansions_;
+  if (is_goal(Triangulation::triangle(e))) {
+    const double length = estimate_goal(here);
+    if (length < length_) {
+      length_ = length;
+      last_ = index;
+    }
+  }
+  const Point apex = mesh_->point(mesh_->apex(e));
+  if (const EdgeId left = beyond(Triangulation::prev(e)); !left.is_none()) {
+    Entrance next = here;
+    next.edge = left;
+    next.before = index;
+    if (cdt::orient(next.root, next.left, apex) > 0) {
+      next.length += straight(next.root, next.left);
+      next.root = next.left;
+      next.left = mesh_->point(mesh_->from(e));
+      next.right = apex;
+    } else if (cdt::orient(next.root, next.right, apex) >= 0) {
+      next.right = apex;
+    }
+    enter(next);
+  }
+  if (const EdgeId right = beyond(Triangulation::next(e)); !right.is_none()) {
+    Entrance next = here;
+    next.edge = right;
+    next.before = index;
+    if (cdt::orient(next.root, next.right, apex) < 0) {
+      next.length += straight(next.root, next.right);
+      next.root = next.right;
+      next.right = mesh_->point(mesh_->to(e));
+      next.left = apex;
+    } else if (cdt::orient(next.root, next.left, apex) <= 0) {
+      next.left = apex;
+    }
+    enter(next);
+  }
+}
+
+void ChannelSearch::enter(const Entrance& entrance) {
+  const double least = estimate(entrance);
+  Best& best = best_[entrance.edge.index()];
+  if (least >= length_ || (best.search == search_ && best.estimate <= least)) return;
+  best = {least, search_};
+  heap_.push_back({least, static_cast<std::uint32_t>(entrances_.size())});
+  entrances_.push_back(entrance);
+  std::ranges::push_heap(heap_, IsLessPromising());
+}
+
+/// No way through an entrance to the goal is shorter, as far as its turns are known. A goal on the
+/// root's side of the edge counts as its mirror image.
+double ChannelSearch::estimate(const Entrance& entrance) const {
+  const Point left = mesh_->point(mesh_->from(entrance.edge));
+  const Point right = mesh_->point(mesh_->to(entrance.edge));
+  const bool is_beyond = cross(towards(left, right), towards(left, to_)) >= 0;
+  const Point goal = is_beyond ? to_ : reflected(left, right, to_);
+  const Point root = entrance.root;
+  const Direction way = towards(root, goal);
+  if (cross(towards(root, entrance.left), way) > 0)
+    return entrance.length + straight(root, entrance.left) + straight(entrance.left, goal);
+  if (cross(towards(root, entrance.right), way) < 0)
+    return entrance.length + straight(root, entrance.right) + straight(entrance.right, goal);
+  return entrance.length + length_of(way);
+}
+
+/// To the goal in the triangle that is entered.
+double ChannelSearch::estimate_goal(const Entrance& entrance) const { return estimate(entrance); }
+
+/// From the last entrance back; where a triangle was entered twice, the way round is left out.
+void ChannelSearch::put_together(Channel& channel) {
+  edges_.clear();
+  for (std::uint32_t i = last_; i != none; i = entrances_[i].before)
+    edges_.push_back(entrances_[i].edge);
+  std::ranges::reverse(edges_);
+  const auto position = [this](TriangleId t) -> std::uint32_t& { return positions_[t.index()]; };
+  const auto add = [&](TriangleId t) {
+    const std::uint32_t known = position(t);
+    if (known < channel.triangles.size() && channel.triangles[known] == t) {
+      channel.triangles.resize(known + 1);
+      channel.portals.resize(known);
+      return;
+    }
+    position(t) = static_cast<std::uint32_t>(channel.triangles.size());
+    channel.triangles.push_back(t);
+  };
+  add(Triangulation::triangle(mesh_->twin(edges_.front())));
+  for (const EdgeId e : edges_) {
+    channel.portals.push_back({mesh_->point(mesh_->from(e)), mesh_->point(mesh_->to(e))});
+    add(Triangulation::triangle(e));
+  }
+}
+
+Channel find_channel(const FreeSpace& space, Point from, Point to) {
+  ChannelSearch search;
+  Channel channel;
+  search.find(space, from, to, channel);
+  return channel;
+}
+
+}  // namespace loft::paths
