@@ -64,7 +64,7 @@ void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& 
   }
   begin(space, from, to);
   for (const TriangleId t : starts_) start(t);
-  while (!heap_.empty() && heap_.front().estimate < length_) {
+  while (last_ == none) {
     const std::uint32_t next = heap_.front().entrance;
     std::ranges::pop_heap(heap_, IsLessPromising());
     heap_.pop_back();
@@ -77,12 +77,11 @@ void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& 
 void ChannelSearch::begin(const FreeSpace& space, Point from, Point to) {
   space_ = &space;
   mesh_ = &space.mesh();
-  from_ = from;
   to_ = to;
-  length_ = std::numeric_limits<double>::infinity();
   last_ = none;
   knows_dead_ends_ = dead_ends_.prepare(space, 0);
   if (knows_dead_ends_) dead_ends_.mark(goals_);
+  turnings_.assign(1, {.place = from});
   entrances_.clear();
   heap_.clear();
   if (best_.size() < mesh_->edge_bound()) best_.resize(mesh_->edge_bound());
@@ -118,84 +117,98 @@ void ChannelSearch::start(TriangleId t) {
     const Point left = mesh_->point(mesh_->to(e));
     const Point right = mesh_->point(mesh_->from(e));
     const EdgeId entry = beyond(e);
-    if (!entry.is_none() && cdt::orient(right, left, from_) > 0)
-      enter({.edge = entry, .root = from_, .left = left, .right = right});
+    if (!entry.is_none() && cdt::orient(right, left, turnings_[0].place) > 0)
+      enter(
+          {.edge = entry, .root = 0, .left = add_turning(left, 0), .right = add_turning(right, 0)});
     e = Triangulation::next(e);
   } while (e != first);
+}
+
+std::uint32_t ChannelSearch::add_turning(Point place, std::uint32_t before) {
+  const Turning& last = turnings_[before];
+  turnings_.push_back({place, last.length + straight(last.place, place), before});
+  return static_cast<std::uint32_t>(turnings_.size() - 1);
 }
 
 /// From a triangle over its two other sides.
 void ChannelSearch::expand(std::uint32_t index) {
   const Entrance here = entrances_[index];
   const EdgeId e = here.edge;
-  if (best_[e.index()].estimate < estimate(here)) return;
+  const Best& best = best_[e.index()];
+  if (best.left != index && best.right != index) return;
   ++expansions_;
   if (is_goal(Triangulation::triangle(e))) {
-    const double length = estimate_goal(here);
-    if (length < length_) {
-      length_ = length;
-      last_ = index;
-    }
+    last_ = index;
+    return;
   }
+  const EdgeId left = beyond(Triangulation::prev(e));
+  const EdgeId right = beyond(Triangulation::next(e));
+  if (left.is_none() && right.is_none()) return;
   const Point apex = mesh_->point(mesh_->apex(e));
-  if (const EdgeId left = beyond(Triangulation::prev(e)); !left.is_none()) {
-    Entrance next = here;
-    next.edge = left;
-    next.before = index;
-    if (cdt::orient(next.root, next.left, apex) > 0) {
-      next.length += straight(next.root, next.left);
-      next.root = next.left;
-      next.left = mesh_->point(mesh_->from(e));
-      next.right = apex;
-    } else if (cdt::orient(next.root, next.right, apex) >= 0) {
-      next.right = apex;
-    }
-    enter(next);
-  }
-  if (const EdgeId right = beyond(Triangulation::next(e)); !right.is_none()) {
-    Entrance next = here;
-    next.edge = right;
-    next.before = index;
-    if (cdt::orient(next.root, next.right, apex) < 0) {
-      next.length += straight(next.root, next.right);
-      next.root = next.right;
-      next.right = mesh_->point(mesh_->to(e));
-      next.left = apex;
-    } else if (cdt::orient(next.root, next.left, apex) <= 0) {
-      next.left = apex;
-    }
-    enter(next);
-  }
+  const auto [turning, chain] = last_turn(here, apex);
+  const std::uint32_t end = add_turning(apex, turning);
+  if (!left.is_none())
+    enter({.edge = left,
+           .before = index,
+           .root = chain == Chain::left ? turning : here.root,
+           .left = here.left,
+           .right = end});
+  if (!right.is_none())
+    enter({.edge = right,
+           .before = index,
+           .root = chain == Chain::right ? turning : here.root,
+           .left = end,
+           .right = here.right});
 }
 
+/// Unless there is one through which each end of the edge is at least as near.
 void ChannelSearch::enter(const Entrance& entrance) {
-  const double least = estimate(entrance);
+  const double to_left = turnings_[entrance.left].length;
+  const double to_right = turnings_[entrance.right].length;
   Best& best = best_[entrance.edge.index()];
-  if (least >= length_ || (best.search == search_ && best.estimate <= least)) return;
-  best = {least, search_};
-  heap_.push_back({least, static_cast<std::uint32_t>(entrances_.size())});
+  const bool is_first = best.search != search_;
+  const bool is_left = is_first || to_left < best.to_left;
+  const bool is_right = is_first || to_right < best.to_right;
+  if (!is_left && !is_right) return;
+  const auto index = static_cast<std::uint32_t>(entrances_.size());
+  if (is_left) {
+    best.to_left = to_left;
+    best.left = index;
+  }
+  if (is_right) {
+    best.to_right = to_right;
+    best.right = index;
+  }
+  best.search = search_;
   entrances_.push_back(entrance);
+  heap_.push_back({estimate(entrance), index});
   std::ranges::push_heap(heap_, IsLessPromising());
 }
 
-/// No way through an entrance to the goal is shorter, as far as its turns are known. A goal on the
-/// root's side of the edge counts as its mirror image.
+/// Of the left chain, the last turning that has the point on its left; or of the right one that has
+/// it on its right; or the root.
+ChannelSearch::LastTurn ChannelSearch::last_turn(const Entrance& entrance, Point p) const {
+  const auto side = [&](std::uint32_t turning) {
+    const Turning& to = turnings_[turning];
+    return cdt::orient(turnings_[to.before].place, to.place, p);
+  };
+  for (std::uint32_t i = entrance.left; i != entrance.root; i = turnings_[i].before)
+    if (side(i) > 0) return {i, Chain::left};
+  for (std::uint32_t i = entrance.right; i != entrance.root; i = turnings_[i].before)
+    if (side(i) < 0) return {i, Chain::right};
+  return {entrance.root, Chain::none};
+}
+
+/// No way through this channel is shorter. A goal on the root's side of the edge counts as its
+/// mirror image.
 double ChannelSearch::estimate(const Entrance& entrance) const {
   const Point left = mesh_->point(mesh_->from(entrance.edge));
   const Point right = mesh_->point(mesh_->to(entrance.edge));
   const bool is_beyond = cross(towards(left, right), towards(left, to_)) >= 0;
   const Point goal = is_beyond ? to_ : reflected(left, right, to_);
-  const Point root = entrance.root;
-  const Direction way = towards(root, goal);
-  if (cross(towards(root, entrance.left), way) > 0)
-    return entrance.length + straight(root, entrance.left) + straight(entrance.left, goal);
-  if (cross(towards(root, entrance.right), way) < 0)
-    return entrance.length + straight(root, entrance.right) + straight(entrance.right, goal);
-  return entrance.length + length_of(way);
+  const Turning& last = turnings_[last_turn(entrance, goal).turning];
+  return last.length + straight(last.place, goal);
 }
-
-/// To the goal in the triangle that is entered.
-double ChannelSearch::estimate_goal(const Entrance& entrance) const { return estimate(entrance); }
 
 /// From the last entrance back; where a triangle was entered twice, the way round is left out.
 void ChannelSearch::put_together(Channel& channel) {

@@ -7,17 +7,10 @@
 
 #include "paths/dead_ends.h"
 #include "paths/free_space.h"
+#include "paths/funnel.h"
 #include "paths/path.h"
 
 namespace loft::paths {
-
-/// The side that two neighbouring triangles of a channel share, as one goes through it.
-struct Portal {
-  Point left;
-  Point right;
-
-  friend bool operator==(const Portal&, const Portal&) = default;
-};
 
 /// Free triangles from one point to another, each once and each beside the one before.
 struct Channel {
@@ -44,23 +37,38 @@ class ChannelSearch {
  private:
   static constexpr std::uint32_t none = 0xffff'ffff;
 
-  /// A channel so far, to where it enters a triangle: the end of its taut paths.
+  /// What taut paths through a channel turn around; with the way there, a tree.
+  struct Turning {
+    Point place;
+    double length = 0;            // of the way here
+    std::uint32_t before = none;  // the one before
+  };
+  /// A channel so far, to where it enters a triangle: paths to the ends of that side part at a
+  /// root, and from there one turns left, and one right, only.
   struct Entrance {
     EdgeId edge;                  // the triangle on its left is entered
     std::uint32_t before = none;  // the entrance before
-    Point root;                   // where these paths turned last, or start
-    Point left;                   // the first turns from there, or the ends of the edge
-    Point right;
-    double length = 0;  // to the root
+    std::uint32_t root = none;    // turnings
+    std::uint32_t left = none;    // at the ends of the edge
+    std::uint32_t right = none;
   };
   struct Entry {
     double estimate;
     std::uint32_t entrance;
   };
-  /// The best that is known of an edge.
+  /// The entrances through which an edge's ends are nearest.
   struct Best {
-    double estimate = 0;
+    double to_left = 0;
+    double to_right = 0;
+    std::uint32_t left = none;
+    std::uint32_t right = none;
     std::uint32_t search = 0;  // of which query
+  };
+  enum class Chain : std::uint8_t { none, left, right };
+  /// Where a path to a point beyond an entrance turns last, and on which side.
+  struct LastTurn {
+    std::uint32_t turning;
+    Chain chain;
   };
 
   [[nodiscard]] EdgeId beyond(EdgeId e) const;
@@ -69,21 +77,20 @@ class ChannelSearch {
   void expand(std::uint32_t index);
   void enter(const Entrance& entrance);
   [[nodiscard]] bool is_goal(TriangleId t) const;
+  [[nodiscard]] std::uint32_t add_turning(Point place, std::uint32_t before);
+  [[nodiscard]] LastTurn last_turn(const Entrance& entrance, Point p) const;
   [[nodiscard]] double estimate(const Entrance& entrance) const;
-  [[nodiscard]] double estimate_goal(const Entrance& entrance) const;
   void put_together(Channel& channel);
 
   const FreeSpace* space_ = nullptr;
   const Triangulation* mesh_ = nullptr;
-  Point from_;
   Point to_;
   std::size_t expansions_ = 0;
-  double length_ = 0;          // of the best channel known
-  std::uint32_t last_ = none;  // and its last entrance
-  bool is_here_ = false;       // the goal is in a triangle of the start
+  std::uint32_t last_ = none;  // the entrance to the goal's triangle
   std::uint32_t search_ = 0;
   std::vector<TriangleId> starts_;
   std::vector<TriangleId> goals_;
+  std::vector<Turning> turnings_;
   std::vector<Entrance> entrances_;
   std::vector<Entry> heap_;
   std::vector<Best> best_;                // by edge

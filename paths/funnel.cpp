@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "cdt/predicates.h"
+#include "paths/channel.h"
 #include "paths/directions.h"
 
 namespace loft::paths {

@@ -4,10 +4,19 @@
 #include <cstddef>
 #include <vector>
 
-#include "paths/channel.h"
 #include "paths/path.h"
 
 namespace loft::paths {
+
+struct Channel;
+
+/// The side that two neighbouring triangles of a channel share, as one goes through it.
+struct Portal {
+  Point left;
+  Point right;
+
+  friend bool operator==(const Portal&, const Portal&) = default;
+};
 
 /// The memory for pulling paths taut, for one thread at a time: once warm, it takes no more.
 class Funnel {
