@@ -2,8 +2,8 @@
 #include "paths/channel.h"
 
 #include <algorithm>
-#include <limits>
 #include <stdexcept>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "paths/directions.h"
@@ -64,12 +64,7 @@ void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& 
   }
   begin(space, from, to);
   for (const TriangleId t : starts_) start(t);
-  while (last_ == none) {
-    const std::uint32_t next = heap_.front().entrance;
-    std::ranges::pop_heap(heap_, IsLessPromising());
-    heap_.pop_back();
-    expand(next);
-  }
+  while (last_ == none) expand(pop());
   (void)dead_ends_.prepare(space, expansions_);
   put_together(channel);
 }
@@ -84,6 +79,7 @@ void ChannelSearch::begin(const FreeSpace& space, Point from, Point to) {
   turnings_.assign(1, {.place = from});
   entrances_.clear();
   heap_.clear();
+  next_ = {};
   if (best_.size() < mesh_->edge_bound()) best_.resize(mesh_->edge_bound());
   if (positions_.size() < mesh_->triangle_bound()) positions_.resize(mesh_->triangle_bound());
   if (++search_ == 0) {
@@ -135,7 +131,8 @@ void ChannelSearch::expand(std::uint32_t index) {
   const Entrance here = entrances_[index];
   const EdgeId e = here.edge;
   const Best& best = best_[e.index()];
-  if (best.left != index && best.right != index) return;
+  if (best.to_left < turnings_[here.left].length && best.to_right < turnings_[here.right].length)
+    return;
   ++expansions_;
   if (is_goal(Triangulation::triangle(e))) {
     last_ = index;
@@ -166,23 +163,39 @@ void ChannelSearch::enter(const Entrance& entrance) {
   const double to_left = turnings_[entrance.left].length;
   const double to_right = turnings_[entrance.right].length;
   Best& best = best_[entrance.edge.index()];
-  const bool is_first = best.search != search_;
-  const bool is_left = is_first || to_left < best.to_left;
-  const bool is_right = is_first || to_right < best.to_right;
-  if (!is_left && !is_right) return;
-  const auto index = static_cast<std::uint32_t>(entrances_.size());
-  if (is_left) {
-    best.to_left = to_left;
-    best.left = index;
+  if (best.search != search_) {
+    best = {to_left, to_right, search_};
+  } else {
+    if (best.to_left <= to_left && best.to_right <= to_right) return;
+    best.to_left = std::min(best.to_left, to_left);
+    best.to_right = std::min(best.to_right, to_right);
   }
-  if (is_right) {
-    best.to_right = to_right;
-    best.right = index;
-  }
-  best.search = search_;
+  push({estimate(entrance), static_cast<std::uint32_t>(entrances_.size())});
   entrances_.push_back(entrance);
-  heap_.push_back({estimate(entrance), index});
-  std::ranges::push_heap(heap_, IsLessPromising());
+}
+
+void ChannelSearch::push(Entry entry) {
+  if (next_.entrance != none) {
+    if (IsLessPromising()(next_, entry)) std::swap(next_, entry);
+    heap_.push_back(entry);
+    std::ranges::push_heap(heap_, IsLessPromising());
+  } else {
+    next_ = entry;
+  }
+}
+
+/// The most promising entrance.
+std::uint32_t ChannelSearch::pop() {
+  if (next_.entrance == none || (!heap_.empty() && IsLessPromising()(next_, heap_.front()))) {
+    if (next_.entrance != none) {
+      heap_.push_back(next_);
+      std::ranges::push_heap(heap_, IsLessPromising());
+    }
+    std::ranges::pop_heap(heap_, IsLessPromising());
+    next_ = heap_.back();
+    heap_.pop_back();
+  }
+  return std::exchange(next_.entrance, none);
 }
 
 /// Of the left chain, the last turning that has the point on its left; or of the right one that has

@@ -53,15 +53,13 @@ class ChannelSearch {
     std::uint32_t right = none;
   };
   struct Entry {
-    double estimate;
-    std::uint32_t entrance;
+    double estimate = 0;
+    std::uint32_t entrance = none;
   };
-  /// The entrances through which an edge's ends are nearest.
+  /// How near the ends of an edge are, through whichever entrance.
   struct Best {
     double to_left = 0;
     double to_right = 0;
-    std::uint32_t left = none;
-    std::uint32_t right = none;
     std::uint32_t search = 0;  // of which query
   };
   enum class Chain : std::uint8_t { none, left, right };
@@ -76,6 +74,8 @@ class ChannelSearch {
   void start(TriangleId t);
   void expand(std::uint32_t index);
   void enter(const Entrance& entrance);
+  void push(Entry entry);
+  [[nodiscard]] std::uint32_t pop();
   [[nodiscard]] bool is_goal(TriangleId t) const;
   [[nodiscard]] std::uint32_t add_turning(Point place, std::uint32_t before);
   [[nodiscard]] LastTurn last_turn(const Entrance& entrance, Point p) const;
@@ -92,7 +92,8 @@ class ChannelSearch {
   std::vector<TriangleId> goals_;
   std::vector<Turning> turnings_;
   std::vector<Entrance> entrances_;
-  std::vector<Entry> heap_;
+  Entry next_;                            // the most promising one found since the last pop()
+  std::vector<Entry> heap_;               // all others
   std::vector<Best> best_;                // by edge
   std::vector<std::uint32_t> positions_;  // by triangle: in the channel, while it is put together
   std::vector<EdgeId> edges_;             // through which it is entered

@@ -124,6 +124,18 @@ class SceneMaker {
     return number() < 0.5 || k + 1 == ring.size() ? ring[k] : middle(ring[k], ring[k + 1]);
   }
 
+  /// Some ends are anywhere, some corners and edges of what is in the scene, or of those given.
+  [[nodiscard]] Query query(const Scene& scene, std::span<const Point> corners = {}) {
+    const auto end = [&] {
+      const std::size_t kind = index(6);
+      if (kind == 0) return place_on(scene);
+      if (kind == 1 && !corners.empty()) return corners[index(corners.size())];
+      return place();
+    };
+    const Point from = end();
+    return {.from = from, .to = end()};
+  }
+
  private:
   [[nodiscard]] static Point middle(Point a, Point b) {
     return {a.x + (b.x - a.x) / 2, a.y + (b.y - a.y) / 2};

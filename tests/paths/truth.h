@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iomanip>
 #include <limits>
 #include <map>
 #include <optional>
 #include <queue>
 #include <span>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -305,5 +310,33 @@ class Truth {
   std::vector<bool> is_linked_;
   mutable std::size_t last_ = 0;
 };
+
+inline constexpr double tolerance = 1e-12;
+
+[[nodiscard]] inline std::string name_of(const Query& query) {
+  std::ostringstream name;
+  name << std::setprecision(17) << query.from << " to " << query.to;
+  return name.str();
+}
+
+/// A path is what it says: from start to goal, clear of everything, with turns only where it must.
+inline void expect_taut(const Truth& truth, const Query& query, const Path& path) {
+  Point at = query.from;
+  double length = 0;
+  for (const Piece& piece : path.pieces) {
+    ASSERT_EQ(piece.from, at);
+    ASSERT_NE(piece.from, piece.to);
+    ASSERT_EQ(piece.turn, Turn::straight);
+    at = piece.to;
+    length += length_between(piece.from, piece.to);
+  }
+  ASSERT_EQ(at, query.to);
+  EXPECT_NEAR(length, path.length, tolerance * length);
+  EXPECT_TRUE(truth.is_clear(path.pieces));
+  for (std::size_t i = 0; i + 1 < path.pieces.size(); ++i)
+    EXPECT_TRUE(
+        truth.turns_around_something(path.pieces[i].from, path.pieces[i].to, path.pieces[i + 1].to))
+        << path.pieces[i].to;
+}
 
 }  // namespace loft::paths
