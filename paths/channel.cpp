@@ -2,18 +2,18 @@
 #include "paths/channel.h"
 
 #include <algorithm>
-#include <stdexcept>
 #include <utility>
 
 #include "cdt/predicates.h"
 #include "paths/directions.h"
+#include "paths/distance.h"
+#include "paths/expect_followed.h"
 
 namespace loft::paths {
 
 namespace {
 
 [[nodiscard]] Direction towards(Point from, Point to) { return {to.x - from.x, to.y - from.y}; }
-[[nodiscard]] double straight(Point from, Point to) { return length_of(towards(from, to)); }
 
 /// The mirror image of p in the line ab.
 [[nodiscard]] Point reflected(Point a, Point b, Point p) {
@@ -33,8 +33,7 @@ struct IsLessPromising {
 }  // namespace
 
 void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& channel) {
-  if (space.is_stale())
-    throw std::logic_error("paths: the free space has not followed the overlay's last edit");
+  expect_followed(space);
   channel.from = from;
   channel.to = to;
   channel.triangles.clear();
@@ -122,7 +121,7 @@ void ChannelSearch::start(TriangleId t) {
 
 std::uint32_t ChannelSearch::add_turning(Point place, std::uint32_t before) {
   const Turning& last = turnings_[before];
-  turnings_.push_back({place, last.length + straight(last.place, place), before});
+  turnings_.push_back({place, last.length + distance_between(last.place, place), before});
   return static_cast<std::uint32_t>(turnings_.size() - 1);
 }
 
@@ -220,7 +219,7 @@ double ChannelSearch::estimate(const Entrance& entrance) const {
   const bool is_beyond = cross(towards(left, right), towards(left, to_)) >= 0;
   const Point goal = is_beyond ? to_ : reflected(left, right, to_);
   const Turning& last = turnings_[last_turn(entrance, goal).turning];
-  return last.length + straight(last.place, goal);
+  return last.length + distance_between(last.place, goal);
 }
 
 /// From the last entrance back; where a triangle was entered twice, the way round is left out.

@@ -5,7 +5,7 @@
 
 #include "cdt/predicates.h"
 #include "paths/channel.h"
-#include "paths/directions.h"
+#include "paths/distance.h"
 
 namespace loft::paths {
 
@@ -55,7 +55,7 @@ void Funnel::add_right(Point p, Path& path) {
 
 void Funnel::go_to(Point p, Path& path) {
   path.pieces.push_back({.from = at_, .to = p});
-  path.length += length_of({p.x - at_.x, p.y - at_.y});
+  path.length += distance_between(at_, p);
   at_ = p;
 }
 

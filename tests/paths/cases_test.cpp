@@ -30,9 +30,9 @@ std::vector<Point> stops(const Path& path) {
 }
 
 /// A room with obstacles, and walls that are open lines.
-class Room {
+class Hall {
  public:
-  explicit Room(const Ring& outline, std::span<const Ring> obstacles = {},
+  explicit Hall(const Ring& outline, std::span<const Ring> obstacles = {},
                 std::span<const Ring> walls = {}) {
     overlay_.insert(room_, outline);
     for (const Ring& ring : obstacles) overlay_.insert(obstacle_, ring);
@@ -83,7 +83,7 @@ TEST(PathCases, AnObstacleThatOverlapsANotchIsWalkedAround) {
                                   {155.6, 332.4},
                                   {252.4, 332.4},
                                   {252.4, 172}}};
-  const Path path = Room(outline, obstacles).find({50.004004, 44.004004}, {318.004004, 44.004004});
+  const Path path = Hall(outline, obstacles).find({50.004004, 44.004004}, {318.004004, 44.004004});
   ASSERT_EQ(path.status, Status::found);
   EXPECT_NEAR(path.length, 699.6837633713652, 1e-12 * path.length);
   EXPECT_EQ(stops(path),
@@ -93,7 +93,7 @@ TEST(PathCases, AnObstacleThatOverlapsANotchIsWalkedAround) {
 
 // frapa/nav2d#2
 TEST(PathCases, InAConvexRoomTheWayIsStraight) {
-  const Room room({{105, 245}, {245, 105}, {755, 105}, {245, 895}, {105, 755}});
+  const Hall room({{105, 245}, {245, 105}, {755, 105}, {245, 895}, {105, 755}});
   const Point from{321.94381764911583, 311.00705914346884};
   const Point to{145.50164006384801, 335.0348767805669};
   const Path path = room.find(from, to);
@@ -104,7 +104,7 @@ TEST(PathCases, InAConvexRoomTheWayIsStraight) {
 
 // hxDaedalus#49, recastnavigation#226
 TEST(PathCases, AGoalNearByOrStraightAheadIsReachedStraight) {
-  const Room room(box(0, 0, 400, 400));
+  const Hall room(box(0, 0, 400, 400));
   EXPECT_EQ(room.find({200, 200}, {203, 204}).length, 5);
   EXPECT_EQ(room.find({200, 200}, {200, 205}).length, 5);
   EXPECT_EQ(room.find({100, 200}, {300, 200}).pieces.size(), 1U);
@@ -116,7 +116,7 @@ TEST(PathCases, AGoalNearByOrStraightAheadIsReachedStraight) {
 TEST(PathCases, AGapIsPassedAsLongAsItHasWidth) {
   const auto between = [](double left, double right) {
     const std::array obstacles{box(0, 190, left, 210), box(right, 190, 400, 210)};
-    return Room(box(0, 0, 400, 400), obstacles).find({200, 100}, {200, 300});
+    return Hall(box(0, 0, 400, 400), obstacles).find({200, 100}, {200, 300});
   };
   EXPECT_EQ(between(199, 201).length, 200);
   EXPECT_EQ(between(200, std::nextafter(200, 201)).length, 200);
@@ -125,16 +125,16 @@ TEST(PathCases, AGapIsPassedAsLongAsItHasWidth) {
 
 TEST(PathCases, APassageWithoutWidthIsClosed) {
   const std::array obstacles{box(0, 0, 50, 50), box(50, 50, 100, 100)};
-  EXPECT_EQ(Room(box(0, 0, 100, 100), obstacles).status({75, 25}, {25, 75}), Status::unreachable);
+  EXPECT_EQ(Hall(box(0, 0, 100, 100), obstacles).status({75, 25}, {25, 75}), Status::unreachable);
   const std::array walls{Ring{{0, 50}, {50, 50}}, Ring{{50, 50}, {50, 0}}};
-  EXPECT_EQ(Room(box(0, 0, 100, 100), {}, walls).status({25, 25}, {75, 75}), Status::unreachable);
+  EXPECT_EQ(Hall(box(0, 0, 100, 100), {}, walls).status({25, 25}, {75, 75}), Status::unreachable);
   const std::array apart{walls[0], Ring{{50, 49}, {50, 0}}};
-  EXPECT_EQ(Room(box(0, 0, 100, 100), {}, apart).status({25, 25}, {75, 75}), Status::found);
+  EXPECT_EQ(Hall(box(0, 0, 100, 100), {}, apart).status({25, 25}, {75, 75}), Status::found);
 }
 
 TEST(PathStatus, InsideAnObstacleAndOutsideOfEverythingIsBlocked) {
   const std::array obstacles{box(40, 40, 60, 60)};
-  const Room room(box(0, 0, 100, 100), obstacles);
+  const Hall room(box(0, 0, 100, 100), obstacles);
   const Point free{20, 50};
   for (const Point blocked : {Point{50, 50}, Point{40.5, 59}, Point{-1, 50}, Point{1e70, -1e70}}) {
     EXPECT_EQ(room.status(blocked, free), Status::start_blocked) << blocked;
@@ -146,7 +146,7 @@ TEST(PathStatus, InsideAnObstacleAndOutsideOfEverythingIsBlocked) {
 }
 
 TEST(PathStatus, WhatIsNotFiniteIsBlocked) {
-  const Room room(box(0, 0, 100, 100));
+  const Hall room(box(0, 0, 100, 100));
   constexpr double infinity = std::numeric_limits<double>::infinity();
   constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
   const Point free{20, 50};
@@ -169,7 +169,7 @@ TEST(PathStatus, NothingIsFreeWhereNothingIs) {
 
 TEST(PathStatus, EdgesAndVerticesOfObstaclesAreFree) {
   const std::array obstacles{box(40, 40, 60, 60)};
-  const Room room(box(0, 0, 100, 100), obstacles);
+  const Hall room(box(0, 0, 100, 100), obstacles);
   EXPECT_EQ(room.find({40, 50}, {20, 50}).length, 20) << "edge";
   EXPECT_EQ(room.find({40, 50}, {60, 50}).length, 40) << "edge to edge";
   EXPECT_EQ(room.find({45, 40}, {55, 40}).length, 10) << "along an edge";
@@ -182,7 +182,7 @@ TEST(PathStatus, EdgesAndVerticesOfObstaclesAreFree) {
 
 TEST(PathStatus, OnAWallIsOnBothSidesOfIt) {
   const std::array walls{Ring{{50, 0}, {50, 90}}};
-  const Room room(box(0, 0, 100, 100), {}, walls);
+  const Hall room(box(0, 0, 100, 100), {}, walls);
   EXPECT_EQ(room.find({50, 20}, {30, 20}).length, 20);
   EXPECT_EQ(room.find({50, 20}, {70, 20}).length, 20);
   EXPECT_EQ(room.find({30, 20}, {50, 20}).length, 20);
@@ -196,7 +196,7 @@ TEST(PathStatus, OnAWallIsOnBothSidesOfIt) {
 TEST(PathStatus, ToWhereOneIsThereIsNoWayToGo) {
   const std::array obstacles{box(40, 40, 60, 60)};
   const std::array walls{Ring{{20, 0}, {20, 20}}};
-  const Room room(box(0, 0, 100, 100), obstacles, walls);
+  const Hall room(box(0, 0, 100, 100), obstacles, walls);
   for (const Point p :
        {Point{10, 10}, Point{40, 40}, Point{40, 50}, Point{20, 10}, Point{20, 20}}) {
     const Path path = room.find(p, p);

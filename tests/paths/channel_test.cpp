@@ -48,7 +48,7 @@ double shortest_in(const Channel& channel) {
           const Point a = ends(from)[other];
           const Point b = ends(to)[side];
           if (leads_straight(portals, from, a, to, b))
-            length = std::min(length, lengths[from][other] + length_between(a, b));
+            length = std::min(length, lengths[from][other] + distance_between(a, b));
         }
     }
   return lengths.back()[0];

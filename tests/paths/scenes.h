@@ -191,9 +191,4 @@ class SceneMaker {
   double reach_ = 10;
 };
 
-/// How long the straight pieces of a path are together.
-[[nodiscard]] inline double length_between(Point a, Point b) {
-  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-}
-
 }  // namespace loft::paths

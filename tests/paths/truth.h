@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "cdt/predicates.h"
+#include "paths/distance.h"
 #include "paths/path.h"
 #include "tests/paths/scenes.h"
 
@@ -252,7 +253,7 @@ class Truth {
     std::vector<Link> links;
     if (a.at == b.at) return links;
     const Direction there = direction(a, b.at);
-    const double length = length_between(a.at, b.at);
+    const double length = distance_between(a.at, b.at);
     const auto add = [&](std::size_t here, std::size_t other) {
       if (a.wedges[here] && b.wedges[other])
         links.push_back(
@@ -328,7 +329,7 @@ inline void expect_taut(const Truth& truth, const Query& query, const Path& path
     ASSERT_NE(piece.from, piece.to);
     ASSERT_EQ(piece.turn, Turn::straight);
     at = piece.to;
-    length += length_between(piece.from, piece.to);
+    length += distance_between(piece.from, piece.to);
   }
   ASSERT_EQ(at, query.to);
   EXPECT_NEAR(length, path.length, tolerance * length);
