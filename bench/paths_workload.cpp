@@ -228,8 +228,8 @@ void time_unreachable(const Arguments& arguments) {
   std::size_t located = 0;
   const auto locate_all = [&] {
     for (const Query& query : queries) {
-      located += space.mesh().locate(query.from).edge.is_none() ? 0 : 1;
-      located += space.mesh().locate(query.to).edge.is_none() ? 0 : 1;
+      located += space.mesh().locate(query.from).edge.is_none() ? 0U : 1U;
+      located += space.mesh().locate(query.to).edge.is_none() ? 0U : 1U;
     }
   };
   find_all();

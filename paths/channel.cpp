@@ -39,23 +39,8 @@ void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& 
   channel.triangles.clear();
   channel.portals.clear();
   expansions_ = 0;
-  space.triangles_at(from, starts_);
-  space.triangles_at(to, goals_);
-  if (starts_.empty() || goals_.empty()) {
-    channel.status = starts_.empty() ? Status::start_blocked : Status::goal_blocked;
-    return;
-  }
-  const auto leads_on = [&](TriangleId t, const std::vector<TriangleId>& others) {
-    return std::ranges::any_of(
-        others, [&](TriangleId other) { return space.component(t) == space.component(other); });
-  };
-  std::erase_if(starts_, [&](TriangleId t) { return !leads_on(t, goals_); });
-  std::erase_if(goals_, [&](TriangleId t) { return !leads_on(t, starts_); });
-  if (starts_.empty()) {
-    channel.status = Status::unreachable;
-    return;
-  }
-  channel.status = Status::found;
+  channel.status = find_ends(space, from, to);
+  if (channel.status != Status::found) return;
   if (const auto both = std::ranges::find_if(starts_, [&](TriangleId t) { return is_goal(t); });
       both != starts_.end()) {
     channel.triangles.push_back(*both);
@@ -66,6 +51,21 @@ void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& 
   while (last_ == none) expand(pop());
   (void)dead_ends_.prepare(space, expansions_);
   put_together(channel);
+}
+
+/// The triangles at start and goal, of those those that a way leads from and to.
+Status ChannelSearch::find_ends(const FreeSpace& space, Point from, Point to) {
+  space.triangles_at(from, starts_);
+  space.triangles_at(to, goals_);
+  if (starts_.empty()) return Status::start_blocked;
+  if (goals_.empty()) return Status::goal_blocked;
+  const auto leads_on = [&](TriangleId t, const std::vector<TriangleId>& others) {
+    return std::ranges::any_of(
+        others, [&](TriangleId other) { return space.component(t) == space.component(other); });
+  };
+  std::erase_if(starts_, [&](TriangleId t) { return !leads_on(t, goals_); });
+  std::erase_if(goals_, [&](TriangleId t) { return !leads_on(t, starts_); });
+  return starts_.empty() ? Status::unreachable : Status::found;
 }
 
 void ChannelSearch::begin(const FreeSpace& space, Point from, Point to) {
@@ -143,18 +143,14 @@ void ChannelSearch::expand(std::uint32_t index) {
   const Point apex = mesh_->point(mesh_->apex(e));
   const auto [turning, chain] = last_turn(here, apex);
   const std::uint32_t end = add_turning(apex, turning);
-  if (!left.is_none())
-    enter({.edge = left,
-           .before = index,
-           .root = chain == Chain::left ? turning : here.root,
-           .left = here.left,
-           .right = end});
-  if (!right.is_none())
-    enter({.edge = right,
-           .before = index,
-           .root = chain == Chain::right ? turning : here.root,
-           .left = end,
-           .right = here.right});
+  Entrance on_left{
+      .edge = left, .before = index, .root = here.root, .left = here.left, .right = end};
+  Entrance on_right{
+      .edge = right, .before = index, .root = here.root, .left = end, .right = here.right};
+  if (chain == Chain::left) on_left.root = turning;
+  if (chain == Chain::right) on_right.root = turning;
+  if (!left.is_none()) enter(on_left);
+  if (!right.is_none()) enter(on_right);
 }
 
 /// Unless there is one through which each end of the edge is at least as near.

@@ -50,7 +50,7 @@ class Truth {
       points_.push_back(barrier.to);
     }
     std::ranges::sort(points_);
-    points_.erase(std::ranges::unique(points_).begin(), points_.end());
+    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
     for (const Point p : points_) places_.push_back(place_at(p));
     links_.resize(places_.size());
     is_linked_.resize(places_.size());
