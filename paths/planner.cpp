@@ -2,8 +2,10 @@
 #include "paths/planner.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "cdt/predicates.h"
+#include "paths/distance.h"
 #include "paths/exact_distance.h"
 #include "paths/visible.h"
 
@@ -32,8 +34,10 @@ namespace {
 }
 
 [[nodiscard]] double distance_to(const Side& side, Point p) {
+  const double twice_area = (side.to.x - side.from.x) * (p.y - side.from.y) -
+                            (side.to.y - side.from.y) * (p.x - side.from.x);
   return has_foot_between(p, side.from, side.to)
-             ? distance_to_line(p, side.from, side.to)
+             ? std::abs(twice_area) / distance_between(side.from, side.to)
              : std::min(distance_between(p, side.from), distance_between(p, side.to));
 }
 
@@ -126,11 +130,11 @@ std::span<const PathId> Planner::after_edit() {
   for (const std::uint32_t number : near_) {
     Kept& kept = kept_[number];
     if (!kept.is_listed) continue;
-    const bool is_broken = is_next ? this->is_broken(kept, space_->came())
-                                   : !space_->is_free(kept.query.from) ||
-                                         std::ranges::any_of(kept.path.pieces, [&](const Piece& piece) {
-                                           return !is_way(kept, piece);
-                                         });
+    const bool is_broken =
+        is_next ? this->is_broken(kept, space_->came())
+                : !space_->is_free(kept.query.from) ||
+                      std::ranges::any_of(kept.path.pieces,
+                                          [&](const Piece& piece) { return !is_way(kept, piece); });
     if (is_broken) kept.is_known = false;
   }
   for (const std::uint32_t number : shortest_) {

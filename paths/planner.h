@@ -35,7 +35,7 @@ enum class Wish { valid, shortest };
 class Planner {
  public:
   /// The space must outlive this and stay in its place.
-  explicit Planner(const FreeSpace& space) : space_(&space) {}
+  explicit Planner(const FreeSpace& space) : space_(&space), state_(space.state()) {}
 
   /// From now on a path is kept. It is found when it is asked for. Paths that wish to be `shortest`
   /// are named by after_edit(), too, when something is gone that a shorter path may use.
@@ -76,7 +76,7 @@ class Planner {
   void look_at(std::uint32_t number, std::span<const Side> came);
 
   const FreeSpace* space_;
-  std::uint64_t state_ = 0;  // the last one that was looked at
+  std::uint64_t state_;  // the last one that was looked at
   std::vector<Kept> kept_;
   std::vector<std::uint32_t> spare_;
   std::vector<std::uint32_t> shortest_;  // those that wish to be
