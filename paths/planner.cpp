@@ -80,6 +80,7 @@ const Path& Planner::path(PathId path) {
     return kept.path;
   unlist(path.index());
   workspace_.find(*space_, kept.query, kept.path);
+  kept.state = space_->state();
   kept.is_known = true;
   list(path.index());
   return kept.path;
@@ -127,9 +128,10 @@ std::span<const PathId> Planner::after_edit() {
   } else {
     for (std::uint32_t i = 0; i < kept_.size(); ++i) near_.push_back(i);
   }
+  const auto is_old = [&](const Kept& kept) { return kept.is_listed && kept.state != state_; };
   for (const std::uint32_t number : near_) {
     Kept& kept = kept_[number];
-    if (!kept.is_listed) continue;
+    if (!is_old(kept)) continue;
     const bool is_broken =
         is_next ? this->is_broken(kept, space_->came())
                 : !space_->is_free(kept.query.from) ||
@@ -139,7 +141,7 @@ std::span<const PathId> Planner::after_edit() {
   }
   for (const std::uint32_t number : shortest_) {
     Kept& kept = kept_[number];
-    if (kept.is_listed && kept.is_known && (!is_next || may_be_shorter(kept, space_->gone())))
+    if (is_old(kept) && kept.is_known && (!is_next || may_be_shorter(kept, space_->gone())))
       kept.is_known = false;
   }
   const auto report = [&](std::uint32_t number) {

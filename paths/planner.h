@@ -62,6 +62,7 @@ class Planner {
     Query query;
     Wish wish = Wish::valid;
     Path path;
+    std::uint64_t state = 0;  // of the space, when it was found
     bool is_kept = false;
     bool is_known = false;  // `path` is right
     bool is_listed = false;
