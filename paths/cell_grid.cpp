@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace loft::paths {
 
@@ -67,21 +68,21 @@ void CellGrid::for_each_cell(cdt::Point from, cdt::Point to, double margin, Visi
   }
 }
 
-void CellGrid::add(std::uint32_t number, cdt::Point from, cdt::Point to, double margin) {
-  for_each_cell(from, to, margin, [&](std::size_t cell) { cells_[cell].push_back(number); });
+void CellGrid::add(Item item, cdt::Point from, cdt::Point to, double margin) {
+  for_each_cell(from, to, margin, [&](std::size_t cell) { cells_[cell].push_back(item); });
 }
 
-void CellGrid::remove(std::uint32_t number, cdt::Point from, cdt::Point to, double margin) {
+void CellGrid::remove(Item item, cdt::Point from, cdt::Point to, double margin) {
   for_each_cell(from, to, margin, [&](std::size_t cell) {
-    auto& numbers = cells_[cell];
-    const auto found = std::ranges::find(numbers, number);
-    if (found == numbers.end()) return;
-    *found = numbers.back();
-    numbers.pop_back();
+    auto& items = cells_[cell];
+    const auto found = std::ranges::find(items, item);
+    if (found == items.end()) return;
+    *found = items.back();
+    items.pop_back();
   });
 }
 
-void CellGrid::find(const cdt::Box& box, std::vector<std::uint32_t>& found) const {
+void CellGrid::find(const cdt::Box& box, std::vector<Item>& found) const {
   if (cells_.empty() || box.is_empty()) return;
   const std::size_t right = column(box.high.x);
   const std::size_t top = row(box.high.y);

@@ -43,6 +43,14 @@ namespace {
 
 }  // namespace
 
+/// Calls visit(part, from, to): the start, then the pieces.
+template <class Visit>
+void Planner::for_each_part(const Kept& kept, Visit visit) {
+  visit(start_part, kept.query.from, kept.query.from);
+  for (std::uint32_t i = 0; i < kept.path.pieces.size(); ++i)
+    visit(i, kept.path.pieces[i].from, kept.path.pieces[i].to);
+}
+
 PathId Planner::keep(const Query& query, Wish wish) {
   std::uint32_t number = static_cast<std::uint32_t>(kept_.size());
   if (spare_.empty()) {
@@ -86,7 +94,7 @@ const Path& Planner::path(PathId path) {
   return kept.path;
 }
 
-/// Where a path is found by what comes near it; one without pieces, by its start.
+/// Where a path is found by what comes near it.
 void Planner::list(std::uint32_t number) {
   Kept& kept = kept_[number];
   if (kept.path.status != Status::found) return;
@@ -95,9 +103,9 @@ void Planner::list(std::uint32_t number) {
     for (const overlay::BorderEdge& edge : space_->border()) box.add(edge.from);
     grid_.lay_out(box, kept_.size());
   }
-  grid_.add(number, kept.query.from, kept.query.from, kept.query.radius);
-  for (const Piece& piece : kept.path.pieces)
-    grid_.add(number, piece.from, piece.to, 2 * kept.query.radius);
+  for_each_part(kept, [&](std::uint32_t part, Point from, Point to) {
+    grid_.add({number, part}, from, to, 2 * kept.query.radius);
+  });
   kept.is_listed = true;
 }
 
@@ -105,9 +113,9 @@ void Planner::unlist(std::uint32_t number) {
   Kept& kept = kept_[number];
   if (!kept.is_listed) return;
   kept.is_listed = false;
-  grid_.remove(number, kept.query.from, kept.query.from, kept.query.radius);
-  for (const Piece& piece : kept.path.pieces)
-    grid_.remove(number, piece.from, piece.to, 2 * kept.query.radius);
+  for_each_part(kept, [&](std::uint32_t part, Point from, Point to) {
+    grid_.remove({number, part}, from, to, 2 * kept.query.radius);
+  });
 }
 
 std::span<const PathId> Planner::after_edit() {
@@ -115,57 +123,60 @@ std::span<const PathId> Planner::after_edit() {
   if (state_ == space_->state()) return broken_;
   const bool is_next = state_ == space_->state_before() && !space_->has_changed_everywhere();
   state_ = space_->state();
-  near_.clear();
-  if (is_next) {
-    cdt::Box box;
-    for (const Side& side : space_->came()) {
-      box.add(side.from);
-      box.add(side.to);
-    }
-    grid_.find(box, near_);
-    std::ranges::sort(near_);
-    near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
-  } else {
-    for (std::uint32_t i = 0; i < kept_.size(); ++i) near_.push_back(i);
-  }
-  const auto is_old = [&](const Kept& kept) { return kept.is_listed && kept.state != state_; };
-  for (const std::uint32_t number : near_) {
-    Kept& kept = kept_[number];
-    if (!is_old(kept)) continue;
-    const bool is_broken =
-        is_next ? this->is_broken(kept, space_->came())
-                : !space_->is_free(kept.query.from) ||
-                      std::ranges::any_of(kept.path.pieces,
-                                          [&](const Piece& piece) { return !is_way(kept, piece); });
-    if (is_broken) kept.is_known = false;
-  }
-  for (const std::uint32_t number : shortest_) {
-    Kept& kept = kept_[number];
-    if (is_old(kept) && kept.is_known && (!is_next || may_be_shorter(kept, space_->gone())))
-      kept.is_known = false;
-  }
-  const auto report = [&](std::uint32_t number) {
-    if (!kept_[number].is_listed || kept_[number].is_known) return;
-    unlist(number);
+  const auto is_old = [&](std::uint32_t number) {
+    return kept_[number].is_listed && kept_[number].is_known && kept_[number].state != state_;
+  };
+  const auto end = [&](std::uint32_t number) {
+    kept_[number].is_known = false;
     broken_.push_back(PathId(number));
   };
-  for (const std::uint32_t number : near_) report(number);
-  for (const std::uint32_t number : shortest_) report(number);
+  if (is_next) {
+    find_near();
+    for (const CellGrid::Item& item : near_)
+      if (is_old(item.owner) && is_broken(kept_[item.owner], item.part)) end(item.owner);
+  } else {
+    for (std::uint32_t i = 0; i < kept_.size(); ++i)
+      if (is_old(i) && is_broken(kept_[i])) end(i);
+  }
+  for (const std::uint32_t number : shortest_)
+    if (is_old(number) && (!is_next || may_be_shorter(kept_[number], space_->gone()))) end(number);
+  for (const PathId path : broken_) unlist(path.index());
   std::ranges::sort(broken_);
   return broken_;
 }
 
-/// Whether what came breaks a path: a piece that it touches is no way any more; or all of the path
-/// is in what is no longer free, which then has come all around it.
-bool Planner::is_broken(const Kept& kept, std::span<const Side> came) {
-  bool is_touched = false;
-  for (const Piece& piece : kept.path.pieces) {
-    const bool is_close =
-        std::ranges::any_of(came, [&](const Side& side) { return is_near(kept, piece, side); });
-    if (is_close && !is_way(kept, piece)) return true;
-    is_touched = is_touched || is_close;
+/// The parts of paths where something came, and where all of a path may be inside of it.
+void Planner::find_near() {
+  came_ = {};
+  for (const Side& side : space_->came()) {
+    came_.add(side.from);
+    came_.add(side.to);
   }
-  return !is_touched && !space_->is_free(kept.query.from);
+  near_.clear();
+  grid_.find(came_, near_);
+  std::ranges::sort(near_);
+  near_.erase(std::unique(near_.begin(), near_.end()), near_.end());
+}
+
+/// Of nothing but what is in the space now.
+bool Planner::is_broken(const Kept& kept) {
+  return !space_->is_free(kept.query.from) ||
+         std::ranges::any_of(kept.path.pieces,
+                             [&](const Piece& piece) { return !is_way(kept, piece); });
+}
+
+/// Whether what came breaks a part of a path: a piece that it touches is no way any more; or the
+/// start, which stands for all of the path, is in what is no longer free.
+bool Planner::is_broken(const Kept& kept, std::uint32_t part) {
+  if (part == start_part) {
+    const Point p = kept.query.from;
+    return came_.low.x <= p.x && p.x <= came_.high.x && came_.low.y <= p.y && p.y <= came_.high.y &&
+           !space_->is_free(p);
+  }
+  const Piece& piece = kept.path.pieces[part];
+  const auto came = space_->came();
+  return std::ranges::any_of(came, [&](const Side& side) { return is_near(kept, piece, side); }) &&
+         !is_way(kept, piece);
 }
 
 bool Planner::is_near(const Kept& kept, const Piece& piece, const Side& side) {

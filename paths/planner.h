@@ -58,6 +58,8 @@ class Planner {
   const Path& path(PathId path);
 
  private:
+  static constexpr std::uint32_t start_part = 0xffff'ffff;
+
   struct Kept {
     Query query;
     Wish wish = Wish::valid;
@@ -70,11 +72,14 @@ class Planner {
 
   void list(std::uint32_t number);
   void unlist(std::uint32_t number);
-  [[nodiscard]] bool is_broken(const Kept& kept, std::span<const Side> came);
+  template <class Visit>
+  static void for_each_part(const Kept& kept, Visit visit);
+  void find_near();
+  [[nodiscard]] bool is_broken(const Kept& kept);
+  [[nodiscard]] bool is_broken(const Kept& kept, std::uint32_t part);
   [[nodiscard]] bool is_way(const Kept& kept, const Piece& piece);
   [[nodiscard]] static bool is_near(const Kept& kept, const Piece& piece, const Side& side);
   [[nodiscard]] static bool may_be_shorter(const Kept& kept, std::span<const Side> gone);
-  void look_at(std::uint32_t number, std::span<const Side> came);
 
   const FreeSpace* space_;
   std::uint64_t state_;  // the last one that was looked at
@@ -84,7 +89,8 @@ class Planner {
   CellGrid grid_;
   Workspace workspace_;
   Sweep sweep_;
-  std::vector<std::uint32_t> near_;
+  cdt::Box came_;
+  std::vector<CellGrid::Item> near_;
   std::vector<PathId> broken_;
 };
 
