@@ -22,7 +22,7 @@ using testing::IsEmpty;
 }
 
 /// A room with a box in it.
-struct Hall {
+struct Planned {
   Overlay overlay;
   LayerId room = overlay.add_layer("room");
   LayerId boxes = overlay.add_layer("boxes");
@@ -34,7 +34,7 @@ struct Hall {
 };
 
 TEST(Planner, NamesWhatABoxBreaksAndFindsItAnew) {
-  Hall here;
+  Planned here;
   const PathId across = here.planner.keep({.from = {10, 50}, .to = {90, 50}});
   const PathId below = here.planner.keep({.from = {10, 10}, .to = {90, 10}});
   EXPECT_EQ(here.planner.path(across).length, 80);
@@ -50,7 +50,7 @@ TEST(Planner, NamesWhatABoxBreaksAndFindsItAnew) {
 }
 
 TEST(Planner, TellsOfWhatMayBeShorterToThoseThatWish) {
-  Hall here;
+  Planned here;
   here.overlay.move(here.thing, box(40, 40, 60, 60));
   here.space.follow();
   const PathId patient = here.planner.keep({.from = {10, 50}, .to = {90, 50}});
@@ -65,7 +65,7 @@ TEST(Planner, TellsOfWhatMayBeShorterToThoseThatWish) {
 }
 
 TEST(Planner, SeesWhatSwallowsAPathWhole) {
-  Hall here;
+  Planned here;
   const PathId path = here.planner.keep({.from = {40, 40}, .to = {45, 45}});
   const PathId still = here.planner.keep({.from = {42, 42}, .to = {42, 42}});
   EXPECT_EQ(here.planner.path(path).status, Status::found);
@@ -78,7 +78,7 @@ TEST(Planner, SeesWhatSwallowsAPathWhole) {
 }
 
 TEST(Planner, WhatHadNoWayHasOneWhenThereIsOne) {
-  Hall here;
+  Planned here;
   const PathId path = here.planner.keep({.from = {10, 50}, .to = {90, 50}});
   const std::vector<Point> wall{{50, 0}, {50, 100}};
   const auto ring = here.overlay.insert(here.walls, wall, overlay::open);
@@ -97,7 +97,7 @@ TEST(Planner, NamesWhatIsBrokenAndNothingElse) {
     const auto number = [&](double low, double high) {
       return std::uniform_real_distribution<>(low, high)(random);
     };
-    Hall here;
+    Planned here;
     std::vector<overlay::RingId> things;
     for (int i = 0; i < 40; ++i) {
       const Point at{number(0, 100), number(0, 100)};
@@ -148,7 +148,7 @@ TEST(Planner, NamesWhatIsBrokenAndNothingElse) {
 }
 
 TEST(Planner, DiscsAreToldOfWhatComesNear) {
-  Hall here;
+  Planned here;
   here.space.keep_gaps();
   const PathId path = here.planner.keep({.from = {10, 50}, .to = {90, 50}, .radius = 5});
   EXPECT_EQ(here.planner.path(path).length, 80);
@@ -163,7 +163,7 @@ TEST(Planner, DiscsAreToldOfWhatComesNear) {
 }
 
 TEST(Planner, PathsComeAndGo) {
-  Hall here;
+  Planned here;
   const PathId path = here.planner.keep({.from = {10, 50}, .to = {90, 50}});
   (void)here.planner.path(path);
   here.planner.change(path, {.from = {20, 50}, .to = {90, 50}});
