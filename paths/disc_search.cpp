@@ -296,17 +296,13 @@ void DiscSearch::expand(const Interval& interval) {
       right_room >= -same_direction || reaches(root, interval.right, 1, from(at_apex));
   // What is between the end of the view and the apex is seen from the one that comes first.
   if (left_room <= same_direction && interval.left.is_at_end) {
-    const bool is_first = comes_first(root, interval.left, apex_right.circle);
-    if (is_first || cross(interval.left.along, apex_left.along) > 0)
-      turn_at(e, interval.root, interval.left.circle);
-    if (const EdgeId left = beyond(at_apex); !is_first && !left.is_none())
+    turn_at(e, interval.root, interval.left.circle);
+    if (const EdgeId left = beyond(at_apex); !left.is_none())
       turn_at(Triangulation::next(left), interval.root, apex_right.circle);
   }
   if (right_room <= same_direction && interval.right.is_at_end) {
-    const bool is_first = comes_first(root, interval.right, apex_left.circle);
-    if (is_first || cross(interval.right.along, apex_right.along) < 0)
-      turn_at(at_right, interval.root, interval.right.circle);
-    if (const EdgeId right = beyond(at_right); !is_first && !right.is_none())
+    turn_at(at_right, interval.root, interval.right.circle);
+    if (const EdgeId right = beyond(at_right); !right.is_none())
       turn_at(right, interval.root, apex_left.circle);
   }
 
@@ -378,12 +374,16 @@ void DiscSearch::expand(const Bend& bend) {
   // The tangent along which it came, or to what is passed on the other side, whichever bounds more.
   Bound near{root.circle, root.in, false};
   EdgeId e = bend.edge;
-  for (bool is_first = true;; is_first = false) {
+  for (bool has_begun = false;;) {
     const EdgeId at_right = Triangulation::next(e);
     const EdgeId at_left = Triangulation::prev(e);
     const EdgeId at_near = is_left ? at_right : at_left;
-    const Direction to_near = way(root.circle.centre, from(at_near));
-    if (!is_first && side * cross(root.in, to_near) < 0 && dot(root.in, to_near) < 0) return;
+    // Up to the way on which it came, and no more than half a turn beyond.
+    const auto is_beyond = [&](EdgeId at) {
+      return side * cross(root.in, way(root.circle.centre, from(at))) > 0;
+    };
+    if (has_begun && !is_beyond(at_near)) return;
+    has_begun = has_begun || is_beyond(is_left ? at_left : at_right);
     const Bound next = is_left ? right_bound(root, at_near) : left_bound(root, at_near);
     if (side * cross(near.along, next.along) > 0)
       near = next;
@@ -408,10 +408,10 @@ void DiscSearch::expand(const Bend& bend) {
       push(is_left ? Interval{entry, number, far, near} : Interval{entry, number, near, far});
     if (room > same_direction) {
       // Nothing is hidden.
-    } else if (near.is_at_end && comes_first(root, near, far.circle)) {
+    } else if (near.is_at_end) {
       turn_at(at_near, number, near.circle);
-    } else if (near.is_at_end && !entry.is_none()) {
-      turn_at(is_left ? entry : Triangulation::next(entry), number, far.circle);
+      if (!entry.is_none())
+        turn_at(is_left ? entry : Triangulation::next(entry), number, far.circle);
     }
     if (twin.is_none()) return;
     e = is_left ? twin : Triangulation::next(twin);
