@@ -24,10 +24,10 @@ using loft::paths::Path;
 using loft::paths::Query;
 using loft::paths::Status;
 
-constexpr double width = 232;
-constexpr double height = 150;
+constexpr double width = 250;
+constexpr double height = 156;
 constexpr Point from{5.5, 5.5};
-constexpr Point to{226, 144};
+constexpr Point to{244, 150};
 
 /// The same numbers everywhere.
 class Dice {
@@ -60,8 +60,8 @@ std::vector<Ring> houses() {
   std::vector<Ring> rings;
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
-      const Point place{20 + 20.5 * column + 4 * (column / 3) + dice.between(-1.5, 1.5),
-                        19 + 20.5 * row + 5 * (row / 3) + dice.between(-1.5, 1.5)};
+      const Point place{19 + 20.5 * column + 9 * (column / 3) + dice.between(-1.5, 1.5),
+                        19 + 20.5 * row + 10 * (row / 3) + dice.between(-1.5, 1.5)};
       const double angle = 0.3 * std::sin(place.x / 45) + 0.25 * std::cos(place.y / 30);
       const double across = dice.between(12, 16.5);
       const double deep = dice.between(11.5, 16);
