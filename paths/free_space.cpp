@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-#include "cdt/predicates.h"
+#include "paths/corners.h"
 
 namespace loft::paths {
 
@@ -54,8 +54,9 @@ void FreeSpace::follow() {
   for (const TriangleId t : mesh_->changes().made) touch(t);
   for (const TriangleId t : overlay_->recovered()) touch(t);
   for (const TriangleId t : touched_) open_sides(t);
-  for (const VertexId v : around_) turn_corners(v);
+  for (const VertexId v : around_) turn_at(v);
   components_.update(*this, touched_);
+  if (gaps_) gaps_->follow(*this, mesh_->changes().unmade, touched_);
   for (const TriangleId t : touched_) is_touched_[t.index()] = false;
   for (const VertexId v : around_) is_around_[v.index()] = false;
 }
@@ -69,8 +70,15 @@ void FreeSpace::build() {
   for (std::uint32_t i = 0; i < mesh_->triangle_bound(); ++i)
     if (mesh_->is_triangle(TriangleId(i))) open_sides(TriangleId(i));
   for (std::uint32_t i = 1; i < mesh_->vertex_bound(); ++i)
-    if (mesh_->is_vertex(VertexId(i))) turn_corners(VertexId(i));
+    if (mesh_->is_vertex(VertexId(i))) turn_at(VertexId(i));
   components_.build(*this);
+  if (gaps_) gaps_->build(*this);
+}
+
+void FreeSpace::keep_gaps() {
+  if (gaps_) return;
+  gaps_ = std::make_unique<Gaps>();
+  gaps_->build(*this);
 }
 
 void FreeSpace::touch(TriangleId t) {
@@ -99,37 +107,10 @@ void FreeSpace::open_sides(TriangleId t) {
   }
 }
 
-/// Where ways turn around a vertex, part by part of what is free there.
-void FreeSpace::turn_corners(VertexId v) {
-  const EdgeId start = mesh_->edge(v);
-  if (start.is_none()) return;
-  EdgeId first = start;
-  // Counter-clockwise, an edge from the vertex is followed by that beyond the third side.
-  const auto onward = [this](EdgeId e) { return beyond(Triangulation::prev(e)); };
-  do {
-    corners_[first.index()] = EdgeId::none();
-    first = mesh_->rotated(first);
-  } while (first != start);
-  do {
-    const bool begins = beyond(first).is_none() && is_free(Triangulation::triangle(first));
-    if (begins) {
-      EdgeId last = first;
-      while (!onward(last).is_none()) last = onward(last);
-      const Point here = mesh_->point(v);
-      const Point from = mesh_->point(mesh_->to(first));
-      const Point to = mesh_->point(mesh_->apex(last));
-      const int side = cdt::orient(here, from, to);
-      const bool is_around = side == 0 && (from.x - here.x) * (to.x - here.x) >= 0 &&
-                             (from.y - here.y) * (to.y - here.y) >= 0;
-      if (side < 0 || is_around) {
-        for (EdgeId e = first;; e = onward(e)) {
-          corners_[e.index()] = last;
-          if (e == last) break;
-        }
-      }
-    }
-    first = mesh_->rotated(first);
-  } while (first != start);
+void FreeSpace::turn_at(VertexId v) {
+  turn_corners(
+      *mesh_, v, [this](TriangleId t) { return is_free(t); },
+      [this](EdgeId e) { return beyond(e); }, corners_);
 }
 
 void FreeSpace::triangles_at(Point p, std::vector<TriangleId>& found) const {

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "overlay/overlay.h"
 #include "paths/components.h"
+#include "paths/gaps.h"
 #include "paths/path.h"
 
 namespace loft::paths {
@@ -44,6 +46,11 @@ class FreeSpace {
   /// Takes over what the last edit, or batch, of the overlay did. After each of them, before
   /// anything is asked; if one was left out, all is built anew.
   void follow();
+  /// From now on the gaps between obstacles are kept, too, for queries with a radius above 0. Cost:
+  /// a triangulation of its own, of what blocks the way; each edit costs about twice as much.
+  void keep_gaps();
+  /// None if they are not kept.
+  [[nodiscard]] const Gaps* gaps() const { return gaps_.get(); }
   /// Whether there was an edit since.
   [[nodiscard]] bool is_stale() const { return revision_ != overlay_->revision(); }
 
@@ -80,7 +87,7 @@ class FreeSpace {
   void build();
   void touch(TriangleId t);
   void open_sides(TriangleId t);
-  void turn_corners(VertexId v);
+  void turn_at(VertexId v);
 
   overlay::Overlay* overlay_;
   const Triangulation* mesh_;
@@ -90,6 +97,7 @@ class FreeSpace {
   std::vector<EdgeId> beyond_;   // by edge
   std::vector<EdgeId> corners_;  // by edge
   Components components_;
+  std::unique_ptr<Gaps> gaps_;
 
   // Of one update.
   std::vector<TriangleId> touched_;

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "cdt/predicates.h"
+#include "paths/clearance.h"
 
 namespace loft::paths {
 
@@ -41,6 +42,14 @@ struct IsLater {
 void Workspace::find(const FreeSpace& space, const Query& query, Path& path) {
   if (space.is_stale())
     throw std::logic_error("paths: the free space has not followed the overlay's last edit");
+  if (!(query.radius >= 0 && std::isfinite(query.radius)))
+    throw std::invalid_argument("paths: the radius is not 0 or more, and finite");
+  if (query.radius > 0) {
+    (void)gaps_of(space);
+    disc_.find(space, query, path);
+    expansions_ = disc_.expansions();
+    return;
+  }
   path.pieces.clear();
   path.length = std::numeric_limits<double>::infinity();
   expansions_ = 0;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "paths/dead_ends.h"
+#include "paths/disc_search.h"
 #include "paths/free_space.h"
 #include "paths/path.h"
 
@@ -105,6 +106,7 @@ class Workspace {
   std::vector<Entry> heap_;
   std::vector<Best> best_;  // by FreeSpace::corner()
   DeadEnds dead_ends_;
+  DiscSearch disc_;
   bool knows_dead_ends_ = false;
 };
 
