@@ -80,7 +80,8 @@ void run(const std::string& out) {
   overlay.insert(frame, Ring{{0, 0}, {width, 0}, {width, height}, {0, height}});
   for (const Ring& ring : houses()) overlay.insert(town, ring);
   const auto free = loft::overlay::Expression(frame) - town;
-  const FreeSpace space(overlay, free);
+  FreeSpace space(overlay, free);
+  space.keep_gaps();
 
   loft::io::PathPicture picture{.free = overlay.polygons(overlay.watch(free))};
   std::size_t hue = 0;

@@ -92,6 +92,7 @@ PathScene::PathScene(const io::Map& map, const SceneRules& rules) {
   } catch (const std::invalid_argument&) {
     throw UsageError(without_bounds("--free"));
   }
+  if (rules.largest_radius > 0) space_->keep_gaps();
 }
 
 LayerId PathScene::layer(const std::string& name) {

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -114,6 +116,49 @@ TEST(PathCommand, FollowsWhatMoves) {
             "0,6,found,0,7.927446638338974,1 4;3 6;8 7\r\n");
   const std::string picture = content(folder / "a.svg");
   EXPECT_THAT(picture, HasSubstr("stroke-opacity=\"0.25\""));
+}
+
+TEST(PathCommand, KeepsADiscAwayFromCorners) {
+  const Folder folder;
+  static_cast<void>(
+      folder.write("box.geojson", collection({feature("box", '[' + box(2, 0, 4, 4) + ']')})));
+  static_cast<void>(folder.write("m.ndjson", R"({"move": "box", "by": [0, -1]})"));
+  const Outcome outcome =
+      run(folder,
+          "path box.geojson --from 0,3 --to 6,3 --radius 1 --moves m.ndjson -o a.geojson "
+          "-o a.svg -q");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto paths = nlohmann::json::parse(content(folder / "a.geojson"))["features"];
+  ASSERT_EQ(paths.size(), 2U);
+  const double arc = std::atan2(4.0, 3.0);
+  EXPECT_NEAR(paths[0]["properties"]["length"].get<double>(), 2 * (2 + arc) + 2, 1e-14);
+  EXPECT_LT(paths[1]["properties"]["length"].get<double>(), 7);
+  for (const auto& point : paths[0]["geometry"]["coordinates"]) {
+    const double x = std::abs(point[0].get<double>() - 3) - 1;
+    const double y = point[1].get<double>() - 4;
+    EXPECT_GE(std::hypot(std::max(x, 0.0), std::max(y, 0.0)), 1 - 1e-14);
+  }
+  EXPECT_GT(paths[0]["geometry"]["coordinates"].size(), 20U);
+  const std::string picture = content(folder / "a.svg");
+  EXPECT_THAT(picture, HasSubstr("class=\"band\""));
+  EXPECT_THAT(picture, HasSubstr(" 0 0 1 "));  // to the right
+}
+
+TEST(PathCommand, KnowsWhereADiscHasRoom) {
+  const Folder folder;
+  static_cast<void>(folder.write(
+      "gap.geojson", collection({with_id("1", R"("layer":"free")", '[' + box(0, 0, 9, 9) + ']'),
+                                 feature("low", '[' + box(4, 0, 5, 3) + ']'),
+                                 feature("high", '[' + box(4, 5, 5, 9) + ']')})));
+  static_cast<void>(folder.write("q.csv",
+                                 "x0,y0,x1,y1,radius\n2,4,7,4,\n2,4,7,4,1.25\n"
+                                 "0.5,4,7,4,0.5\n0.5,4,7,4,0.75\n2,4,7,8.5,1\n2,2,7,2,0\n"));
+  const Outcome outcome = run(folder, "path gap.geojson --queries q.csv --radius 0.875");
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("\n0,0,found,0.875,5,2 4;"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n1,0,unreachable,1.25,,\r\n2,0,found,0.5,6.5,0.5 4;"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n3,0,start blocked,0.75,,\r\n4,0,goal blocked,1,,\r\n"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n5,0,found,0,5.47213595499958,2 2;4 3;5 3;7 2\r\n"));
 }
 
 /// A square of free ground with a pond; its features are not in the way of each other.
