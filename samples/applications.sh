@@ -44,5 +44,5 @@ Done. The pictures are
 and the table of overlaps and gaps is $PWD/$out/world_faults.csv. Next, try
   $loft overlay --help
   $loft query $out/world_10m.geojson --points points.csv
-  $loft path $out/world_10m.geojson --from 12,37 --to 15,36 -o way.svg
+  $loft path $out/world_10m.geojson --from 13,39 --to 14,36 -o way.svg
 END

@@ -18,11 +18,11 @@ namespace loft::app {
 
 /// How a scene is taken.
 struct SceneRules {
-  std::string file;                     ///< for messages
-  std::optional<std::string> layer_by;  ///< the property that names layers; not given: `layer`
-  std::optional<std::string> free;      ///< an expression over layers
-  std::vector<cdt::Point> ends;         ///< of queries: the frame goes around them, too
-  double largest_radius = 0;            ///< and leaves room for that
+  std::string file = {};                     ///< for messages
+  std::optional<std::string> layer_by = {};  ///< the property that names layers; not given: `layer`
+  std::optional<std::string> free = {};      ///< an expression over layers
+  std::vector<cdt::Point> ends = {};         ///< of queries: the frame goes around them, too
+  double largest_radius = 0;                 ///< and leaves room for that
 };
 
 /// A scene in an overlay, with what is free in it, and its features by their names.
