@@ -87,9 +87,7 @@ PathInputs read_all(const PathCommand& command) {
 }
 
 SceneRules rules_of(const PathCommand& command, const std::vector<paths::Query>& queries) {
-  SceneRules rules{
-      .file = command.scene == "-" ? std::string(io::standard_input) : command.scene.string(),
-      .layer_by = command.layer_by};
+  SceneRules rules{.file = shown_name(command.scene), .layer_by = command.layer_by};
   if (command.free) rules.free = io::json_text(*command.free);
   for (const paths::Query& query : queries) {
     rules.ends.push_back(query.from);
@@ -189,7 +187,7 @@ ExitCode run(const PathCommand& command) {
   seconds["read"] = stopwatch.lap();
 
   PathScene planned(scene.map, rules_of(command, queries));
-  if (command.moves) planned.check(edits, command.moves->string());
+  if (command.moves) planned.check(edits, shown_name(*command.moves));
   seconds["overlay"] = stopwatch.lap();
 
   const std::vector<FoundPath> found = find_paths(planned, edits, queries);
