@@ -114,21 +114,24 @@ bool is_clear(const FreeSpace& space, Point p, double radius) {
 
 namespace {
 
-/// The largest double up to about `guess` for which holds(radius); 0 if there is none above.
+/// The largest double near `guess` for which holds(radius), which is so for all below it.
 template <class Holds>
 [[nodiscard]] double largest(double guess, Holds holds) {
-  constexpr int most_steps = 64;
-  double radius = guess;
-  int step = 0;
-  for (; step < most_steps && radius > 0 && !holds(radius); ++step)
-    radius = std::nextafter(radius, 0);
-  if (step > 0) return radius;
-  for (; step < most_steps; ++step) {
-    const double more = std::nextafter(radius, std::numeric_limits<double>::infinity());
-    if (!holds(more)) break;
-    radius = more;
+  if (!std::isfinite(guess)) return guess;
+  double low = guess;
+  double high = guess;
+  for (double step = 0x1p-50; low > 0 && !holds(low); step *= 2)
+    low = step < 1 ? guess * (1 - step) : 0;
+  for (double step = 0x1p-50; low > 0 && holds(high); step *= 2) {
+    low = high;
+    high = guess * (1 + step);
   }
-  return radius;
+  while (low < high) {
+    const double middle = low + (high - low) / 2;
+    if (middle == low || middle == high) break;
+    (holds(middle) ? low : high) = middle;
+  }
+  return low;
 }
 
 }  // namespace

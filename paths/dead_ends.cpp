@@ -2,14 +2,13 @@
 #include "paths/dead_ends.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace loft::paths {
 
 bool DeadEnds::prepare(const FreeSpace& space, std::size_t expansions) {
-  const std::size_t revision = space.overlay().revision();
-  if (space_ != &space || revision_ != revision) {
-    space_ = &space;
-    revision_ = revision;
+  if (state_ != space.state()) {
+    state_ = space.state();
     spent_ = 0;
     is_built_ = false;
   }
@@ -23,6 +22,7 @@ void DeadEnds::build(const FreeSpace& space) {
   const auto triangles = static_cast<std::uint32_t>(space.mesh().triangle_bound());
   onward_.assign(triangles, core);
   marks_.assign(triangles, 0);
+  goals_here_.assign(triangles, 0);
   mark_ = 0;
   std::vector<std::uint8_t> open_sides(triangles);
   std::vector<TriangleId> ends;
@@ -52,9 +52,10 @@ void DeadEnds::mark(std::span<const TriangleId> goals) {
     std::ranges::fill(marks_, 0);
     mark_ = 1;
   }
+  goals_ = static_cast<std::uint32_t>(goals.size());
   for (const TriangleId goal : goals)
     for (std::uint32_t t = goal.index(); onward_[t] != core; t = onward_[t]) {
-      marks_[t] = mark_;
+      goals_here_[t] = std::exchange(marks_[t], mark_) == mark_ ? goals_here_[t] + 1 : 1;
       if (onward_[t] == root) break;
     }
 }

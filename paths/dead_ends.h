@@ -28,7 +28,7 @@ class DeadEnds {
   [[nodiscard]] bool leads_on(TriangleId from, TriangleId to) const {
     const std::uint32_t onward = onward_[to.index()];
     if (onward == core) return true;
-    if (onward_[from.index()] == to.index()) return marks_[from.index()] != mark_;
+    if (onward_[from.index()] == to.index()) return !has_all_goals(from);
     return marks_[to.index()] == mark_;
   }
 
@@ -37,14 +37,18 @@ class DeadEnds {
   static constexpr std::uint32_t root = 0xffff'fffe;
 
   void build(const FreeSpace& space);
+  [[nodiscard]] bool has_all_goals(TriangleId t) const {
+    return marks_[t.index()] == mark_ && goals_here_[t.index()] == goals_;
+  }
 
-  const FreeSpace* space_ = nullptr;
-  std::size_t revision_ = 0;
+  std::uint64_t state_ = 0;  // FreeSpace::state()
   std::size_t spent_ = 0;
   bool is_built_ = false;
-  std::vector<std::uint32_t> onward_;  // by triangle: the next one towards the core
-  std::vector<std::uint32_t> marks_;   // by triangle: of the goals on this side of it
+  std::vector<std::uint32_t> onward_;      // by triangle: the next one towards the core
+  std::vector<std::uint32_t> marks_;       // by triangle: mark_ if goals are on this side of it
+  std::vector<std::uint32_t> goals_here_;  // and how many
   std::uint32_t mark_ = 0;
+  std::uint32_t goals_ = 0;
 };
 
 }  // namespace loft::paths

@@ -16,6 +16,9 @@ namespace {
 /// Directions that differ by less are the same: several roundings.
 constexpr double same_direction = 0x1p-49;
 
+/// Angles that rounding does not come to.
+constexpr double least_turn_back = 0x1p-30;
+
 /// How far aside from a wall what is seen along it goes.
 constexpr double aside = 0x1p-20;
 
@@ -105,11 +108,9 @@ void DiscSearch::start(TriangleId t) {
     if (from(Triangulation::edge(t, corner)) < from(first)) first = Triangulation::edge(t, corner);
   if (is_goal(t)) {
     const Direction there = tangent(roots_[0].circle, {goal_, 0}).along;
-    std::array<Circle, 3> corners;
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const EdgeId e = Triangulation::edge(t, corner);
-      corners[corner] = cross(there, way(goal_, from(e))) > 0 ? on_left(e) : on_right(e);
-    }
+    const std::array corners{corner_beside(there, first),
+                             corner_beside(there, Triangulation::next(first)),
+                             corner_beside(there, Triangulation::prev(first))};
     see_goal(0, corners, nullptr, nullptr);
   }
   EdgeId e = first;
@@ -162,9 +163,11 @@ void DiscSearch::start_through(EdgeId e) {
     rest.right = {third_right.circle, third_right.along, false};
     bend(third_right);
   }
-  if (cross(rest.right.along, rest.left.along) > 0) push(rest);
+  const double room = cross(rest.right.along, rest.left.along);
+  if (room >= -same_direction || is_hollow(rest.left) || is_hollow(rest.right)) push(rest);
+  if (room > same_direction) return;
   // What the sides of the view hide of each other.
-  else if (rest.left.is_at_end && comes_first(roots_[0], rest.left, rest.right.circle))
+  if (rest.left.is_at_end && comes_first(roots_[0], rest.left, rest.right.circle))
     turn_at(entry, 0, rest.left.circle);
   else if (rest.right.is_at_end)
     turn_at(Triangulation::next(entry), 0, rest.right.circle);
@@ -180,14 +183,27 @@ bool DiscSearch::is_goal(TriangleId t) const {
   return std::ranges::find(goals_, t) != goals_.end();
 }
 
+/// Whether a path would leave a circle before it comes there.
+bool DiscSearch::turns_back(const Root& root, Direction out) {
+  const double side = root.circle.radius > 0 ? 1 : -1;
+  return root.circle.radius != 0 && dot(root.in, out) > 0 &&
+         side * cross(root.in, out) < -least_turn_back;
+}
+
 double DiscSearch::length_to(const Root& root, Direction out) const {
   if (root.circle.radius == 0) return root.length;
   return root.length + std::max(0.0, root.circle.radius * angle_between(root.in, out));
 }
 
+/// A corner of the goal's triangle that nothing has been said of.
+DiscSearch::Corner DiscSearch::corner_beside(Direction way_to_goal, EdgeId e) const {
+  const bool is_left = cross(way_to_goal, way(goal_, from(e))) > 0;
+  return {is_left ? on_left(e) : on_right(e), is_left ? 1.0 : -1.0, false};
+}
+
 /// The goal is in a triangle that a root sees between two directions, or from one, or one, on.
 /// `corners`: of the triangle.
-void DiscSearch::see_goal(std::uint32_t root, std::span<const Circle> corners,
+void DiscSearch::see_goal(std::uint32_t root, std::span<const Corner> corners,
                           const Direction* left, const Direction* right) {
   const Direction there = tangent(roots_[root].circle, {goal_, 0}).along;
   if (left != nullptr && cross(*left, there) > same_direction) return;
@@ -196,28 +212,28 @@ void DiscSearch::see_goal(std::uint32_t root, std::span<const Circle> corners,
 }
 
 /// Straight to the goal, or around what is in the way.
-void DiscSearch::pull_to_goal(std::uint32_t root, std::span<const Circle> corners, int depth) {
+void DiscSearch::pull_to_goal(std::uint32_t root, std::span<const Corner> corners, int depth) {
   const Root from = roots_[root];
   const Tangent there = tangent(from.circle, {goal_, 0});
   double worst = -0x1p-45 * radius_;
-  const Circle* in_the_way = nullptr;
-  for (const Circle& corner : corners) {
-    if (corner.radius == 0 || corner.centre == from.circle.centre) continue;
-    const Direction to_corner = way(goal_, corner.centre);
+  const Corner* in_the_way = nullptr;
+  for (const Corner& corner : corners) {
+    if (corner.circle.centre == from.circle.centre) continue;
+    const Direction to_corner = way(goal_, corner.circle.centre);
+    const double beside = corner.side * cross(there.along, to_corner);
     const double back = -dot(there.along, to_corner);
-    if (back <= 0 || back >= there.length) continue;
-    const double side = corner.radius > 0 ? 1 : -1;
-    const double room = side * cross(there.along, to_corner) - radius_;
-    if (room >= worst) continue;
-    worst = room;
+    const bool is_beside = back > 0 && back < there.length && corner.circle.radius != 0;
+    if (!is_beside && !(corner.is_passed && beside < 0)) continue;
+    if (beside - radius_ >= worst) continue;
+    worst = beside - radius_;
     in_the_way = &corner;
   }
   if (in_the_way == nullptr) return finish(root, there);
-  if (depth == most_bends) return;
-  const Tangent first = tangent(from.circle, *in_the_way);
+  if (depth == most_bends || in_the_way->circle.radius == 0) return;
+  const Tangent first = tangent(from.circle, in_the_way->circle);
   const double length = length_to(from, first.along) + first.length;
   const auto bend = static_cast<std::uint32_t>(roots_.size());
-  roots_.push_back({*in_the_way, first.along, length, root, none, names_++});
+  roots_.push_back({in_the_way->circle, first.along, length, root, none, names_++});
   pull_to_goal(bend, corners, depth + 1);
 }
 
@@ -240,27 +256,33 @@ void DiscSearch::expand(const Interval& interval) {
     if (best.name != root.name && covers(best, root)) return;
   }
   if (is_goal(t)) {
-    const Direction there = tangent(root.circle, {goal_, 0}).along;
-    const bool is_apex_left = cross(there, way(goal_, from(at_apex))) > 0;
-    const std::array<Circle, 3> corners{on_left(e), on_right(at_right),
-                                        is_apex_left ? on_left(at_apex) : on_right(at_apex)};
+    const Tangent straight = tangent(root.circle, {goal_, 0});
+    const Direction there = straight.along;
+    // A circle may reach over the edge: what leaves it there need not cross that.
+    const Point start = straight.touch(root.circle);
+    const bool crosses = cross(way(from(e), from(at_right)), way(from(e), start)) < 0;
+    const std::array corners{left_corner(e, crosses), right_corner(at_right, crosses),
+                             corner_beside(there, at_apex)};
     see_goal(interval.root, corners, interval.left.is_at_end ? nullptr : &interval.left.along,
              interval.right.is_at_end ? nullptr : &interval.right.along);
   }
 
   const Bound apex_left = left_bound(root, at_apex);
   const Bound apex_right = right_bound(root, at_apex);
-  const bool sees_left = cross(interval.left.along, apex_right.along) < 0;
-  const bool sees_right = cross(interval.right.along, apex_left.along) > 0;
+  // Where bounds fall together both may be: what is seen, and what is beyond.
+  const double left_room = -cross(interval.left.along, apex_right.along);
+  const double right_room = cross(interval.right.along, apex_left.along);
+  const bool sees_left = left_room >= -same_direction || is_hollow(interval.left);
+  const bool sees_right = right_room >= -same_direction || is_hollow(interval.right);
   // What is between the end of the view and the apex is seen from the one that comes first.
-  if (!sees_left && interval.left.is_at_end) {
+  if (left_room <= same_direction && interval.left.is_at_end) {
     const bool is_first = comes_first(root, interval.left, apex_right.circle);
     if (is_first || cross(interval.left.along, apex_left.along) > 0)
       turn_at(e, interval.root, interval.left.circle);
     if (const EdgeId left = beyond(at_apex); !is_first && !left.is_none())
       turn_at(Triangulation::next(left), interval.root, apex_right.circle);
   }
-  if (!sees_right && interval.right.is_at_end) {
+  if (right_room <= same_direction && interval.right.is_at_end) {
     const bool is_first = comes_first(root, interval.right, apex_left.circle);
     if (is_first || cross(interval.right.along, apex_right.along) < 0)
       turn_at(at_right, interval.root, interval.right.circle);
@@ -302,7 +324,12 @@ bool DiscSearch::covers(const Best& best, const Root& other) const {
 /// A path comes to a circle around from(e), to bend around it in the triangle left of e.
 void DiscSearch::turn_at(EdgeId e, std::uint32_t root, const Circle& circle) {
   if (gaps_->corner(e).is_none()) return;
-  const Tangent there = tangent(roots_[root].circle, circle);
+  Tangent there = tangent(roots_[root].circle, circle);
+  // A circle that would be left before it is come to is not on the way.
+  while (turns_back(roots_[root], there.along)) {
+    root = roots_[root].before;
+    there = tangent(roots_[root].circle, circle);
+  }
   const Root next{circle,
                   there.along,
                   length_to(roots_[root], there.along) + there.length,
@@ -350,13 +377,15 @@ void DiscSearch::expand(const Bend& bend) {
     }
     if (is_goal(Triangulation::triangle(e))) {
       const Direction* const limit = near.is_at_end ? nullptr : &near.along;
-      see_goal(number, std::array{on_left(at_left), on_right(at_right)}, is_left ? nullptr : limit,
-               is_left ? limit : nullptr);
+      see_goal(number, std::array{left_corner(at_left, false), right_corner(at_right, false)},
+               is_left ? nullptr : limit, is_left ? limit : nullptr);
     }
     const EdgeId entry = beyond(at_right);
-    if (side * cross(near.along, far.along) > 0) {
-      if (!entry.is_none())
-        push(is_left ? Interval{entry, number, far, near} : Interval{entry, number, near, far});
+    const double room = side * cross(near.along, far.along);
+    if ((room >= -same_direction || is_hollow(near)) && !entry.is_none())
+      push(is_left ? Interval{entry, number, far, near} : Interval{entry, number, near, far});
+    if (room > same_direction) {
+      // Nothing is hidden.
     } else if (near.is_at_end && comes_first(root, near, far.circle)) {
       turn_at(at_near, number, near.circle);
     } else if (near.is_at_end && !entry.is_none()) {

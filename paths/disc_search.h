@@ -78,9 +78,23 @@ class DiscSearch {
   void turn_at(EdgeId corner, std::uint32_t root, const Circle& circle);
   void push(const Interval& interval);
   void push(double estimate, const Step& step);
-  void see_goal(std::uint32_t root, std::span<const Circle> corners, const Direction* left,
+  /// A corner of the goal's triangle. What a path has passed it may not leave on the other side.
+  struct Corner {
+    Circle circle;
+    double side = 1;  // 1 where the path keeps it on its left, -1 on its right
+    bool is_passed = false;
+  };
+
+  void see_goal(std::uint32_t root, std::span<const Corner> corners, const Direction* left,
                 const Direction* right);
-  void pull_to_goal(std::uint32_t root, std::span<const Circle> corners, int depth);
+  void pull_to_goal(std::uint32_t root, std::span<const Corner> corners, int depth);
+  [[nodiscard]] Corner left_corner(EdgeId e, bool is_passed) const {
+    return {on_left(e), 1, is_passed};
+  }
+  [[nodiscard]] Corner right_corner(EdgeId e, bool is_passed) const {
+    return {on_right(e), -1, is_passed};
+  }
+  [[nodiscard]] Corner corner_beside(Direction way_to_goal, EdgeId e) const;
   [[nodiscard]] bool comes_first(const Root& root, const Bound& bound, const Circle& other) const;
   void finish(std::uint32_t root, const Tangent& last);
   void put_together(Path& path) const;
@@ -104,6 +118,12 @@ class DiscSearch {
   }
   /// The length of a path that leaves a root in a direction, up to there.
   [[nodiscard]] double length_to(const Root& root, Direction out) const;
+  /// Whether a bound is at a point where ways do not turn. Where it crosses the other one, a corner
+  /// behind it on the same side may be what the path turns at: what is seen goes on until that.
+  [[nodiscard]] static bool is_hollow(const Bound& bound) {
+    return bound.is_at_end && bound.circle.radius == 0;
+  }
+  [[nodiscard]] static bool turns_back(const Root& root, Direction out);
   /// Whether whatever goes on from `other` can as well go on from what is known.
   [[nodiscard]] bool covers(const Best& best, const Root& other) const;
   [[nodiscard]] std::uint32_t key_of(EdgeId e, bool is_left) const;

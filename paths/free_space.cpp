@@ -3,12 +3,22 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "paths/corners.h"
 
 namespace loft::paths {
 
 using cdt::Location;
+
+namespace {
+
+[[nodiscard]] std::uint64_t new_state() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
+}  // namespace
 
 FreeSpace::FreeSpace(overlay::Overlay& overlay, const overlay::Expression& free,
                      std::span<const LayerId> walls)
@@ -36,6 +46,7 @@ void FreeSpace::follow() {
   if (now == revision_) return;
   if (now != revision_ + 1) return build();
   revision_ = now;
+  state_ = new_state();
 
   const std::size_t triangles = mesh_->triangle_bound();
   beyond_.resize(3 * triangles);
@@ -63,6 +74,7 @@ void FreeSpace::follow() {
 
 void FreeSpace::build() {
   revision_ = overlay_->revision();
+  state_ = new_state();
   beyond_.assign(mesh_->edge_bound(), EdgeId::none());
   corners_.assign(mesh_->edge_bound(), EdgeId::none());
   is_touched_.assign(mesh_->triangle_bound(), false);

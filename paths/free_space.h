@@ -54,6 +54,9 @@ class FreeSpace {
   /// Whether there was an edit since.
   [[nodiscard]] bool is_stale() const { return revision_ != overlay_->revision(); }
 
+  /// Which state of which space this is: no other one in this program ever had that number.
+  [[nodiscard]] std::uint64_t state() const { return state_; }
+
   [[nodiscard]] const overlay::Overlay& overlay() const { return *overlay_; }
   [[nodiscard]] const Triangulation& mesh() const { return *mesh_; }
 
@@ -94,6 +97,7 @@ class FreeSpace {
   overlay::ResultId free_;
   std::vector<bool> is_wall_layer_;
   std::size_t revision_ = 0;
+  std::uint64_t state_ = 0;
   std::vector<EdgeId> beyond_;   // by edge
   std::vector<EdgeId> corners_;  // by edge
   Components components_;

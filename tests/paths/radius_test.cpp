@@ -157,5 +157,156 @@ TEST(Radius, AgreesWithGrownObstacles) {
   std::printf("found %d, none %d, undecided %d\n", found, none, undecided);
 }
 
+TEST(Radius, AGapAsWideAsTheDiscIsPassed) {
+  const double above = 1 + 0x1p-40;
+  // Turned by a rational angle, so that widths of gaps are no coordinates.
+  for (const auto& [cosine, sine] : {std::pair{1.0, 0.0}, std::pair{0.0, 1.0}}) {
+    const auto turned = [&](overlay::Ring ring) {
+      for (Point& p : ring) p = {cosine * p.x - sine * p.y, sine * p.x + cosine * p.y};
+      return ring;
+    };
+    Overlay overlay;
+    const LayerId room = overlay.add_layer("room");
+    const LayerId boxes = overlay.add_layer("boxes");
+    overlay.insert(room, turned(box(0, 0, 400, 400)));
+    overlay.insert(boxes, turned(box(0, 190, 199, 210)));
+    overlay.insert(boxes, turned(box(201, 190, 400, 210)));
+    FreeSpace space(overlay, overlay::Expression(room) - boxes);
+    space.keep_gaps();
+    const auto at = [&](double x, double y) { return turned({{x, y}})[0]; };
+    const Query query{.from = at(200, 100), .to = at(200, 300), .radius = 1};
+    const Path path = shortest_path(space, query);
+    ASSERT_EQ(path.status, Status::found);
+    EXPECT_NEAR(path.length, 200, 1e-9);
+    EXPECT_EQ(shortest_path(space, {query.from, query.to, above}).status, Status::unreachable);
+    EXPECT_EQ(widest(space, query.from, query.to), 1);
+  }
+}
+
+TEST(Radius, ASlantedGapIsAsWideAsItIs) {
+  // A corner 5 away from a side with the direction (3, 4).
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  const LayerId things = overlay.add_layer("things");
+  overlay.insert(room, box(-100, -100, 100, 100));
+  overlay.insert(things, overlay::Ring{{-60, -80}, {75, 100}, {-60, 100}});
+  overlay.insert(things, overlay::Ring{{4, -3}, {100, -3}, {100, -90}});
+  FreeSpace space(overlay, overlay::Expression(room) - things);
+  space.keep_gaps();
+  const Query query{.from = {70, 50}, .to = {-50, -90}, .radius = 2.5};
+  EXPECT_EQ(shortest_path(space, query).status, Status::found);
+  EXPECT_EQ(shortest_path(space, {query.from, query.to, 2.5 * (1 + 0x1p-50)}).status,
+            Status::unreachable);
+  EXPECT_EQ(widest(space, query.from, query.to), 2.5);
+}
+
+TEST(Radius, StartsAndGoalsNearWalls) {
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  overlay.insert(room, box(0, 0, 400, 400));
+  FreeSpace space(overlay, room);
+  EXPECT_THROW((void)shortest_path(space, {{200, 200}, {205, 200}, 10}), std::logic_error);
+  space.keep_gaps();
+  const auto find = [&](Point from, Point to, double radius) {
+    return shortest_path(space, {from, to, radius});
+  };
+  EXPECT_EQ(find({200, 200}, {205, 200}, 10).length, 5) << "nearer than the radius";
+  EXPECT_EQ(find({200, 100}, {200, 300}, 10).length, 200);
+  EXPECT_EQ(find({200, 200}, {200, 200}, 10).length, 0);
+  EXPECT_EQ(find({5, 200}, {200, 200}, 10).status, Status::start_blocked);
+  EXPECT_EQ(find({200, 200}, {200, 395}, 10).status, Status::goal_blocked);
+  EXPECT_EQ(find({10, 200}, {390, 200}, 10).length, 380) << "touching";
+  EXPECT_EQ(find({500, 200}, {200, 200}, 10).status, Status::start_blocked);
+  EXPECT_THROW((void)find({200, 200}, {205, 200}, -1), std::invalid_argument);
+  EXPECT_THROW((void)find({200, 200}, {205, 200}, std::nan("")), std::invalid_argument);
+}
+
+TEST(Radius, ClearanceAndTheWidestWay) {
+  int joined = 0;
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed, 20);
+    FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});
+    space.keep_gaps();
+    for (int q = 0; q < 20; ++q) {
+      const Point from{scene.number(0, 100), scene.number(0, 100)};
+      const Point to{scene.number(0, 100), scene.number(0, 100)};
+      const double room = clearance(space, from);
+      if (space.is_free(from)) {
+        EXPECT_NEAR(room, nearest(space, from), 1e-9);
+        EXPECT_TRUE(is_clear(space, from, room * (1 - 1e-12)));
+        EXPECT_FALSE(is_clear(space, from, room * (1 + 1e-12)));
+      } else {
+        EXPECT_EQ(room, 0);
+      }
+      const double most = widest(space, from, to);
+      EXPECT_EQ(most < 0, !space.is_reachable(from, to));
+      if (most <= 0) continue;
+      ++joined;
+      EXPECT_EQ(shortest_path(space, {from, to, most}).status, Status::found);
+      EXPECT_NE(shortest_path(space, {from, to, std::nextafter(most, 1e9)}).status, Status::found);
+    }
+  }
+  EXPECT_GT(joined, 50);
+}
+
+TEST(Radius, LongerForALargerDiscAndTheSameBothWays) {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed, 25);
+    FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});
+    space.keep_gaps();
+    for (int q = 0; q < 20; ++q) {
+      const Point from{scene.number(0, 100), scene.number(0, 100)};
+      const Point to{scene.number(0, 100), scene.number(0, 100)};
+      double before = shortest_path(space, {from, to}).length;
+      for (const double radius : {1e-9, 0.3, 1.0, 2.0, 4.0}) {
+        const Path path = shortest_path(space, {from, to, radius});
+        const Path back = shortest_path(space, {to, from, radius});
+        std::ostringstream where;
+        where.precision(17);
+        where << "from " << from << " to " << to << " radius " << radius;
+        SCOPED_TRACE(where.str());
+        if (path.status != Status::found) break;
+        EXPECT_NEAR(back.length, path.length, 1e-11 * path.length);
+        EXPECT_GE(path.length, before * (1 - 1e-11));
+        if (radius == 1e-9) {
+          EXPECT_NEAR(path.length, before, 1e-6);
+        }
+        before = path.length;
+      }
+    }
+  }
+}
+
+TEST(Radius, TheSameAsAFreshBuildAfterMoves) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    SCOPED_TRACE(seed);
+    Scene scene(seed, 25);
+    FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});
+    space.keep_gaps();
+    Workspace workspace;
+    for (int move = 0; move < 60; ++move) {
+      const LayerId layer = scene.random() % 3 == 0 ? scene.walls : scene.things;
+      const auto rings = scene.overlay.rings(layer);
+      if (rings.empty()) continue;
+      const auto ring = rings[scene.random() % rings.size()];
+      scene.overlay.translate(ring, {scene.number(-15, 15), scene.number(-15, 15)});
+      space.follow();
+      FreeSpace fresh(scene.overlay, scene.free(), std::vector{scene.walls});
+      fresh.keep_gaps();
+      for (const double radius : {0.3, 1.0, 2.5}) {
+        const Query query{.from = {scene.number(0, 100), scene.number(0, 100)},
+                          .to = {scene.number(0, 100), scene.number(0, 100)},
+                          .radius = radius};
+        Path path;
+        workspace.find(space, query, path);
+        EXPECT_EQ(path, shortest_path(fresh, query));
+      }
+      EXPECT_EQ(widest(space, {50, 50}, {10, 10}), widest(fresh, {50, 50}, {10, 10}));
+    }
+  }
+}
+
 }  // namespace
 }  // namespace loft::paths

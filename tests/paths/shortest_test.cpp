@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "tests/overlay/boxes.h"
 
@@ -27,6 +28,48 @@ TEST(ShortestPath, GoesAroundABox) {
                                     {.from = {60, 20}, .to = {80, 50}}};
   EXPECT_EQ(path.pieces, expected);
   EXPECT_DOUBLE_EQ(path.length, 20 + 2 * std::sqrt(1300));
+}
+
+/// A corridor around a box, closed at its end where the goal is; which is nearer from outside.
+TEST(ShortestPath, LeavesADeadEndForAGoalThatTouchesItFromOutside) {
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  const LayerId boxes = overlay.add_layer("boxes");
+  const LayerId walls = overlay.add_layer("walls");
+  overlay.insert(room, box(0, 0, 100, 100));
+  overlay.insert(boxes, box(20, 50, 40, 80));
+  overlay.insert(walls, std::vector<Point>{{10, 50}, {10, 90}, {50, 90}, {50, 50}, {40, 50}},
+                 overlay::open);
+  const FreeSpace space(overlay, overlay::Expression(room) - boxes, std::vector{walls});
+  const Query query{.from = {15, 70}, .to = {40, 50}};
+  Workspace workspace;
+  Path path;
+  for (int i = 0; i < 100; ++i) {  // with time it knows where dead ends are
+    workspace.find(space, query, path);
+    ASSERT_EQ(path, shortest_path(space, query));
+    ASSERT_DOUBLE_EQ(path.length, std::sqrt(425) + 20);
+  }
+}
+
+TEST(ShortestPath, AWorkspaceKnowsASpaceFromAnotherInItsPlace) {
+  const auto box_at = [](Overlay& overlay, double x) {
+    const LayerId room = overlay.add_layer("room");
+    const LayerId boxes = overlay.add_layer("boxes");
+    overlay.insert(room, box(0, 0, 100, 100));
+    overlay.insert(boxes, box(x, 20, x + 20, 100));
+    return overlay::Expression(room) - boxes;
+  };
+  Overlay one;
+  Overlay other;
+  Workspace workspace;
+  Path path;
+  std::optional<FreeSpace> space;
+  space.emplace(one, box_at(one, 40));
+  for (int i = 0; i < 100; ++i) workspace.find(*space, {.from = {20, 50}, .to = {80, 50}}, path);
+  space.emplace(other, box_at(other, 10));
+  const Query query{.from = {5, 50}, .to = {80, 50}};
+  workspace.find(*space, query, path);
+  EXPECT_EQ(path, shortest_path(*space, query));
 }
 
 }  // namespace
