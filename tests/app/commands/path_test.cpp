@@ -153,9 +153,9 @@ TEST(PathCommand, KnowsWhereADiscHasRoom) {
   static_cast<void>(folder.write("q.csv",
                                  "x0,y0,x1,y1,radius\n2,4,7,4,\n2,4,7,4,1.25\n"
                                  "0.5,4,7,4,0.5\n0.5,4,7,4,0.75\n2,4,7,8.5,1\n2,2,7,2,0\n"));
-  const Outcome outcome = run(folder, "path gap.geojson --queries q.csv --radius 0.875");
+  const Outcome outcome = run(folder, "path gap.geojson --queries q.csv --radius 1");
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_THAT(outcome.out, HasSubstr("\n0,0,found,0.875,5,2 4;"));
+  EXPECT_THAT(outcome.out, HasSubstr("\n0,0,found,1,5,2 4;"));
   EXPECT_THAT(outcome.out, HasSubstr("\n1,0,unreachable,1.25,,\r\n2,0,found,0.5,6.5,0.5 4;"));
   EXPECT_THAT(outcome.out, HasSubstr("\n3,0,start blocked,0.75,,\r\n4,0,goal blocked,1,,\r\n"));
   EXPECT_THAT(outcome.out, HasSubstr("\n5,0,found,0,5.47213595499958,2 2;4 3;5 3;7 2\r\n"));
