@@ -6,20 +6,18 @@
 #include <limits>
 #include <stdexcept>
 
+#include "paths/distance.h"
 #include "paths/exact_distance.h"
 
 namespace loft::paths {
 
 namespace {
 
-[[nodiscard]] double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
-
 [[nodiscard]] double distance_to_side(Point p, Point a, Point b) {
   const double x = b.x - a.x;
   const double y = b.y - a.y;
-  if (!has_foot_between(p, a, b))
-    return std::min(length_of(p.x - a.x, p.y - a.y), length_of(p.x - b.x, p.y - b.y));
-  return std::abs(x * (p.y - a.y) - y * (p.x - a.x)) / length_of(x, y);
+  if (!has_foot_between(p, a, b)) return std::min(distance_between(a, p), distance_between(b, p));
+  return std::abs(x * (p.y - a.y) - y * (p.x - a.x)) / distance_between(a, b);
 }
 
 /// Calls look(edge) for the sides of triangles that can be seen from a point, from near to far as
@@ -86,7 +84,7 @@ double clearance(const FreeSpace& space, Point p) {
       gaps, p, start, [&] { return least; },
       [&](EdgeId e) {
         const Point a = mesh.point(mesh.from(e));
-        least = std::min(least, length_of(p.x - a.x, p.y - a.y));
+        least = std::min(least, distance_between(a, p));
         if (!mesh.is_constrained(e)) return;
         const auto [from, to] = whole_side(mesh, e);
         least = std::min(least, distance_to_side(p, from, to));

@@ -164,7 +164,9 @@ void DiscSearch::start_through(EdgeId e) {
     bend(third_right);
   }
   const double room = cross(rest.right.along, rest.left.along);
-  if (room >= -same_direction || is_hollow(rest.left) || is_hollow(rest.right)) push(rest);
+  if (room >= -same_direction || reaches(roots_[0], rest.left, -1, rest.right.circle.centre) ||
+      reaches(roots_[0], rest.right, 1, rest.left.circle.centre))
+    push(rest);
   if (room > same_direction) return;
   // What the sides of the view hide of each other.
   if (rest.left.is_at_end && comes_first(roots_[0], rest.left, rest.right.circle))
@@ -177,6 +179,15 @@ void DiscSearch::start_through(EdgeId e) {
 bool DiscSearch::comes_first(const Root& root, const Bound& bound, const Circle& other) const {
   const Point start = Tangent{bound.along, 0}.touch(root.circle);
   return dot(bound.along, way(start, other.centre)) >= tangent(root.circle, bound.circle).length;
+}
+
+/// Whether a bound, crossed by another one at a point to the left of it, side 1, or to the right,
+/// -1, still lets a path through: that bends before it comes there, at what is still to be seen, or
+/// ends.
+bool DiscSearch::reaches(const Root& root, const Bound& bound, double side, Point other) const {
+  if (bound.is_at_end && bound.circle.radius == 0) return true;
+  const Point start = Tangent{bound.along, 0}.touch(root.circle);
+  return side * cross(bound.along, way(start, other)) > 0;
 }
 
 bool DiscSearch::is_goal(TriangleId t) const {
@@ -231,15 +242,22 @@ void DiscSearch::pull_to_goal(std::uint32_t root, std::span<const Corner> corner
   if (in_the_way == nullptr) return finish(root, there);
   if (depth == most_bends || in_the_way->circle.radius == 0) return;
   const Tangent first = tangent(from.circle, in_the_way->circle);
+  if (!is_way_clear(root, first, in_the_way->circle)) return;
   const double length = length_to(from, first.along) + first.length;
   const auto bend = static_cast<std::uint32_t>(roots_.size());
   roots_.push_back({in_the_way->circle, first.along, length, root, none, names_++});
   pull_to_goal(bend, corners, depth + 1);
 }
 
+/// Tangents to circles that are not seen yet may lead through what is between: these are no way.
+bool DiscSearch::is_way_clear(std::uint32_t root, const Tangent& way, const Circle& to) {
+  return sweep_.is_clear(*gaps_, way.touch(roots_[root].circle), way.touch(to), radius_,
+                         Triangulation::edge(starts_.front()));
+}
+
 void DiscSearch::finish(std::uint32_t root, const Tangent& last) {
   const double length = length_to(roots_[root], last.along) + last.length;
-  if (length >= length_) return;
+  if (length >= length_ || !is_way_clear(root, last, {goal_, 0})) return;
   length_ = length;
   last_ = root;
 }
@@ -272,8 +290,10 @@ void DiscSearch::expand(const Interval& interval) {
   // Where bounds fall together both may be: what is seen, and what is beyond.
   const double left_room = -cross(interval.left.along, apex_right.along);
   const double right_room = cross(interval.right.along, apex_left.along);
-  const bool sees_left = left_room >= -same_direction || is_hollow(interval.left);
-  const bool sees_right = right_room >= -same_direction || is_hollow(interval.right);
+  const bool sees_left =
+      left_room >= -same_direction || reaches(root, interval.left, -1, from(at_apex));
+  const bool sees_right =
+      right_room >= -same_direction || reaches(root, interval.right, 1, from(at_apex));
   // What is between the end of the view and the apex is seen from the one that comes first.
   if (left_room <= same_direction && interval.left.is_at_end) {
     const bool is_first = comes_first(root, interval.left, apex_right.circle);
@@ -330,6 +350,7 @@ void DiscSearch::turn_at(EdgeId e, std::uint32_t root, const Circle& circle) {
     root = roots_[root].before;
     there = tangent(roots_[root].circle, circle);
   }
+  if (!is_way_clear(root, there, circle)) return;
   const Root next{circle,
                   there.along,
                   length_to(roots_[root], there.along) + there.length,
@@ -382,7 +403,8 @@ void DiscSearch::expand(const Bend& bend) {
     }
     const EdgeId entry = beyond(at_right);
     const double room = side * cross(near.along, far.along);
-    if ((room >= -same_direction || is_hollow(near)) && !entry.is_none())
+    if ((room >= -same_direction || reaches(root, near, side, far.circle.centre)) &&
+        !entry.is_none())
       push(is_left ? Interval{entry, number, far, near} : Interval{entry, number, near, far});
     if (room > same_direction) {
       // Nothing is hidden.
@@ -398,6 +420,9 @@ void DiscSearch::expand(const Bend& bend) {
 }
 
 void DiscSearch::push(const Interval& interval) {
+  if (!interval.left.is_at_end && !interval.right.is_at_end &&
+      cross(interval.right.along, interval.left.along) < -same_direction)
+    return;
   const double least = estimate(interval);
   if (least < length_) push(least, {.interval = interval, .bend = {}, .is_bend = false});
 }

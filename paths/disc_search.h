@@ -10,6 +10,7 @@
 #include "paths/directions.h"
 #include "paths/free_space.h"
 #include "paths/path.h"
+#include "paths/sweep.h"
 
 namespace loft::paths {
 
@@ -96,6 +97,7 @@ class DiscSearch {
   }
   [[nodiscard]] Corner corner_beside(Direction way_to_goal, EdgeId e) const;
   [[nodiscard]] bool comes_first(const Root& root, const Bound& bound, const Circle& other) const;
+  [[nodiscard]] bool is_way_clear(std::uint32_t root, const Tangent& way, const Circle& to);
   void finish(std::uint32_t root, const Tangent& last);
   void put_together(Path& path) const;
 
@@ -118,11 +120,7 @@ class DiscSearch {
   }
   /// The length of a path that leaves a root in a direction, up to there.
   [[nodiscard]] double length_to(const Root& root, Direction out) const;
-  /// Whether a bound is at a point where ways do not turn. Where it crosses the other one, a corner
-  /// behind it on the same side may be what the path turns at: what is seen goes on until that.
-  [[nodiscard]] static bool is_hollow(const Bound& bound) {
-    return bound.is_at_end && bound.circle.radius == 0;
-  }
+  [[nodiscard]] bool reaches(const Root& root, const Bound& bound, double side, Point other) const;
   [[nodiscard]] static bool turns_back(const Root& root, Direction out);
   /// Whether whatever goes on from `other` can as well go on from what is known.
   [[nodiscard]] bool covers(const Best& best, const Root& other) const;
@@ -145,6 +143,7 @@ class DiscSearch {
   std::vector<Root> roots_;
   std::vector<Step> steps_;
   std::vector<Entry> heap_;
+  Sweep sweep_;
   std::vector<Best> best_;  // by twice the corner, and side
 };
 

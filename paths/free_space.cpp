@@ -46,7 +46,9 @@ void FreeSpace::follow() {
   if (now == revision_) return;
   if (now != revision_ + 1) return build();
   revision_ = now;
+  state_before_ = state_;
   state_ = new_state();
+  has_changed_everywhere_ = false;
 
   const std::size_t triangles = mesh_->triangle_bound();
   beyond_.resize(3 * triangles);
@@ -68,13 +70,36 @@ void FreeSpace::follow() {
   for (const VertexId v : around_) turn_at(v);
   components_.update(*this, touched_);
   if (gaps_) gaps_->follow(*this, mesh_->changes().unmade, touched_);
+  list_changes();
   for (const TriangleId t : touched_) is_touched_[t.index()] = false;
   for (const VertexId v : around_) is_around_[v.index()] = false;
 }
 
+/// Of walls all that are beside what was made.
+void FreeSpace::list_changes() {
+  came_.clear();
+  gone_.clear();
+  for (const overlay::BorderEdge& edge : change().come) came_.push_back({edge.from, edge.to});
+  for (const overlay::BorderEdge& edge : change().gone) gone_.push_back({edge.from, edge.to});
+  if (is_wall_layer_.empty()) return;
+  for (const TriangleId t : touched_) {
+    if (mesh_->is_infinite(t)) continue;
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(t, corner);
+      const Side side{mesh_->point(mesh_->from(e)), mesh_->point(mesh_->to(e))};
+      if (mesh_->is_constrained(e) && is_wall(e)) came_.push_back(side);
+      gone_.push_back(side);
+    }
+  }
+}
+
 void FreeSpace::build() {
   revision_ = overlay_->revision();
+  state_before_ = state_;
   state_ = new_state();
+  has_changed_everywhere_ = true;
+  came_.clear();
+  gone_.clear();
   beyond_.assign(mesh_->edge_bound(), EdgeId::none());
   corners_.assign(mesh_->edge_bound(), EdgeId::none());
   is_touched_.assign(mesh_->triangle_bound(), false);

@@ -20,6 +20,12 @@ using cdt::Triangulation;
 using cdt::VertexId;
 using overlay::LayerId;
 
+/// A straight piece of what blocks the way.
+struct Side {
+  Point from;
+  Point to;
+};
+
 /// Where one can go: the places where an expression over the layers of an overlay is true, less
 /// walls, lines that nobody crosses. Kept up to date from edit to edit, with the components of what
 /// is free, so that it is known at once whether a way leads from one place to another.
@@ -56,6 +62,8 @@ class FreeSpace {
 
   /// Which state of which space this is: no other one in this program ever had that number.
   [[nodiscard]] std::uint64_t state() const { return state_; }
+  /// The state before that.
+  [[nodiscard]] std::uint64_t state_before() const { return state_before_; }
 
   [[nodiscard]] const overlay::Overlay& overlay() const { return *overlay_; }
   [[nodiscard]] const Triangulation& mesh() const { return *mesh_; }
@@ -67,6 +75,13 @@ class FreeSpace {
   /// turn. The last edge of it counter-clockwise that has it on its left; none if ways do not turn
   /// there.
   [[nodiscard]] EdgeId corner(EdgeId e) const { return corners_[e.index()]; }
+  /// What came with the last edit that was followed, of what blocks the way, and what is gone.
+  /// Where there are walls, some that stayed may be among what came, and some that never blocked
+  /// anything among what is gone.
+  [[nodiscard]] std::span<const Side> came() const { return came_; }
+  [[nodiscard]] std::span<const Side> gone() const { return gone_; }
+  /// Whether these say nothing, as all was built anew.
+  [[nodiscard]] bool has_changed_everywhere() const { return has_changed_everywhere_; }
   /// What the last edit did to the border of what is free, walls not counted.
   [[nodiscard]] const overlay::ResultChange& change() const { return overlay_->change(free_); }
   /// The border of what is free, walls not counted.
@@ -91,6 +106,7 @@ class FreeSpace {
   void touch(TriangleId t);
   void open_sides(TriangleId t);
   void turn_at(VertexId v);
+  void list_changes();
 
   overlay::Overlay* overlay_;
   const Triangulation* mesh_;
@@ -98,6 +114,10 @@ class FreeSpace {
   std::vector<bool> is_wall_layer_;
   std::size_t revision_ = 0;
   std::uint64_t state_ = 0;
+  std::uint64_t state_before_ = 0;
+  bool has_changed_everywhere_ = true;
+  std::vector<Side> came_;
+  std::vector<Side> gone_;
   std::vector<EdgeId> beyond_;   // by edge
   std::vector<EdgeId> corners_;  // by edge
   Components components_;

@@ -9,6 +9,7 @@
 
 #include "cdt/predicates.h"
 #include "paths/corners.h"
+#include "paths/distance.h"
 #include "paths/exact_distance.h"
 #include "paths/free_space.h"
 
@@ -21,12 +22,6 @@ namespace {
 
 /// As far as a corner looks for what it is nearest to, in triangles.
 constexpr int furthest_look = 64;
-
-[[nodiscard]] double length_between(Point a, Point b) {
-  const double x = b.x - a.x;
-  const double y = b.y - a.y;
-  return std::sqrt(x * x + y * y);
-}
 
 }  // namespace
 
@@ -320,13 +315,13 @@ SegmentId Gaps::side_with(VertexId foot) const {
 double Gaps::gap(EdgeId e) const {
   VertexId p = mesh_.from(e);
   VertexId q = mesh_.to(e);
-  const double length = length_between(mesh_.point(p), mesh_.point(q));
+  const double length = distance_between(mesh_.point(p), mesh_.point(q));
   if (!is_foot(p) && !is_foot(q)) return length;
   if (is_foot(p) && is_foot(q)) return std::numeric_limits<double>::infinity();
   if (is_foot(p)) std::swap(p, q);
   const cdt::Segment& side = mesh_.segment(side_with(q));
   const Point foot = foot_on(mesh_.point(p), mesh_.point(side.from), mesh_.point(side.to));
-  const bool is_its_foot = length_between(foot, mesh_.point(q)) <= 0x1p-30 * length;
+  const bool is_its_foot = distance_between(foot, mesh_.point(q)) <= 0x1p-30 * length;
   return is_its_foot ? length : std::numeric_limits<double>::infinity();
 }
 

@@ -7,6 +7,8 @@
 
 #include "cdt/predicates.h"
 #include "paths/clearance.h"
+#include "paths/directions.h"
+#include "paths/distance.h"
 
 namespace loft::paths {
 
@@ -14,9 +16,6 @@ using cdt::orient;
 
 namespace {
 
-/// As std::hypot is not the same everywhere.
-[[nodiscard]] double length_of(double x, double y) { return std::sqrt(x * x + y * y); }
-[[nodiscard]] double length_between(Point a, Point b) { return length_of(b.x - a.x, b.y - a.y); }
 [[nodiscard]] double cross_of(double ax, double ay, double bx, double by) {
   return ax * by - ay * bx;
 }
@@ -130,7 +129,7 @@ void Workspace::start(TriangleId t) {
 bool Workspace::is_goal(TriangleId t) const { return std::ranges::find(goals_, t) != goals_.end(); }
 
 void Workspace::see_goal(std::uint32_t root) {
-  const double length = roots_[root].length + length_between(roots_[root].place, goal_);
+  const double length = roots_[root].length + distance_between(roots_[root].place, goal_);
   if (length >= length_) return;
   length_ = length;
   last_ = root;
@@ -202,7 +201,7 @@ void Workspace::turn_at(EdgeId corner, const Interval& interval, Side side, Edge
                         bool is_cut) {
   const Root& root = roots_[interval.root];
   const Point place = side == Side::left ? interval.left.to : interval.right.to;
-  const double length = root.length + length_between(root.place, place);
+  const double length = root.length + distance_between(root.place, place);
   Best& best = best_[corner.index()];
   const auto flag = static_cast<std::uint8_t>(side == Side::left ? 1 : 2);
   if (best.search == search_ && best.length <= length) {
@@ -211,7 +210,7 @@ void Workspace::turn_at(EdgeId corner, const Interval& interval, Side side, Edge
   } else {
     best = {length, search_, flag};
   }
-  const double estimate = length + length_between(place, goal_);
+  const double estimate = length + distance_between(place, goal_);
   if (estimate >= length_) return;
   push(estimate,
        {.interval = {},
@@ -291,7 +290,7 @@ double Workspace::estimate(const Interval& interval) const {
     return through_end(interval, interval.left, left, a, b, goal);
   if (const Point right = direction(interval.right); cross_of(right.x, right.y, x, y) < 0)
     return through_end(interval, interval.right, right, a, b, goal);
-  return root.length + length_of(x, y);
+  return root.length + distance_between(root.place, goal);
 }
 
 /// The length through the end of what is seen, on the ray from the root in direction `along`; not
@@ -300,7 +299,7 @@ double Workspace::through_end(const Interval& interval, const Ray& ray, Point al
                               Point b, Point goal) const {
   const Root& root = roots_[interval.root];
   if (ray.is_at_end)
-    return root.length + length_between(root.place, ray.to) + length_between(ray.to, goal);
+    return root.length + distance_between(root.place, ray.to) + distance_between(ray.to, goal);
   const double x = b.x - a.x;
   const double y = b.y - a.y;
   const double right = (a.x - root.place.x) * y;
@@ -310,7 +309,7 @@ double Workspace::through_end(const Interval& interval, const Ray& ray, Point al
   t -= 0x1p-50 * (std::abs(right) + std::abs(left)) / std::abs(sine);
   t = std::isfinite(t) && t > 0 ? t : 0;
   const Point end{root.place.x + t * along.x, root.place.y + t * along.y};
-  return root.length + t * length_of(along.x, along.y) + length_between(end, goal);
+  return root.length + t * length_of({along.x, along.y}) + distance_between(end, goal);
 }
 
 void Workspace::put_together(Path& path) const {

@@ -61,14 +61,14 @@ using overlay::Overlay;
 }
 
 /// A room with boxes, slanted triangles and walls.
-struct Scene {
+struct Clutter {
   Overlay overlay;
   LayerId room = overlay.add_layer("room");
   LayerId things = overlay.add_layer("things", overlay::FillRule::nonzero);
   LayerId walls = overlay.add_layer("walls");
   std::mt19937 random;
 
-  explicit Scene(unsigned seed, int count) : random(seed) {
+  explicit Clutter(unsigned seed, int count) : random(seed) {
     overlay.insert(room, box(0, 0, 100, 100));
     for (int i = 0; i < count; ++i) add();
   }
@@ -109,7 +109,7 @@ TEST(Radius, AgreesWithGrownObstacles) {
   const unsigned scenes = more == nullptr ? 12 : static_cast<unsigned>(std::atoi(more));
   for (unsigned seed = 0; seed < scenes; ++seed) {
     SCOPED_TRACE(seed);
-    Scene scene(seed, 10 + static_cast<int>(seed % 5) * 8);
+    Clutter scene(seed, 10 + static_cast<int>(seed % 5) * 8);
     FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});
     space.keep_gaps();
     Workspace workspace;
@@ -225,7 +225,7 @@ TEST(Radius, ClearanceAndTheWidestWay) {
   int joined = 0;
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
-    Scene scene(seed, 20);
+    Clutter scene(seed, 20);
     FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});
     space.keep_gaps();
     for (int q = 0; q < 20; ++q) {
@@ -253,7 +253,7 @@ TEST(Radius, ClearanceAndTheWidestWay) {
 TEST(Radius, LongerForALargerDiscAndTheSameBothWays) {
   for (unsigned seed = 0; seed < 20; ++seed) {
     SCOPED_TRACE(seed);
-    Scene scene(seed, 25);
+    Clutter scene(seed, 25);
     FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});
     space.keep_gaps();
     for (int q = 0; q < 20; ++q) {
@@ -282,7 +282,7 @@ TEST(Radius, LongerForALargerDiscAndTheSameBothWays) {
 TEST(Radius, TheSameAsAFreshBuildAfterMoves) {
   for (unsigned seed = 0; seed < 6; ++seed) {
     SCOPED_TRACE(seed);
-    Scene scene(seed, 25);
+    Clutter scene(seed, 25);
     FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});
     space.keep_gaps();
     Workspace workspace;

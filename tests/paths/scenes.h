@@ -101,18 +101,17 @@ class SceneMaker {
     const std::size_t points = 2 + index(3);
     while (line.size() < points) {
       const Point last = line.back();
-      const Point next = number() < 0.3 ? place_on(scene)
-                                        : rounded({last.x + number(-1, 1) * 2 * reach_,
-                                                   last.y + number(-1, 1) * 2 * reach_});
+      const Point next =
+          number() < 0.3
+              ? place_on(scene)
+              : rounded({last.x + number(-1, 1) * 2 * reach_, last.y + number(-1, 1) * 2 * reach_});
       if (next != last) line.push_back(next);
     }
     return line;
   }
 
   /// Anywhere in a room.
-  [[nodiscard]] Point place() {
-    return rounded({number(0, Scene::size), number(0, Scene::size)});
-  }
+  [[nodiscard]] Point place() { return rounded({number(0, Scene::size), number(0, Scene::size)}); }
 
   /// A corner of something, or halfway between two that follow each other.
   [[nodiscard]] Point place_on(const Scene& scene) {
@@ -120,10 +119,21 @@ class SceneMaker {
     if (count == 0) return place();
     const std::size_t i = index(count);
     const bool is_obstacle = i < scene.obstacles.size();
-    const Ring& ring =
-        is_obstacle ? scene.obstacles[i] : scene.walls[i - scene.obstacles.size()];
+    const Ring& ring = is_obstacle ? scene.obstacles[i] : scene.walls[i - scene.obstacles.size()];
     const std::size_t k = index(ring.size());
     return number() < 0.5 || k + 1 == ring.size() ? ring[k] : middle(ring[k], ring[k + 1]);
+  }
+
+  /// Some ends are anywhere, some corners and edges of what is in the scene, or of those given.
+  [[nodiscard]] Query query(const Scene& scene, std::span<const Point> corners = {}) {
+    const auto end = [&] {
+      const std::size_t kind = index(6);
+      if (kind == 0) return place_on(scene);
+      if (kind == 1 && !corners.empty()) return corners[index(corners.size())];
+      return place();
+    };
+    const Point from = end();
+    return {.from = from, .to = end()};
   }
 
  private:
@@ -166,8 +176,7 @@ class SceneMaker {
     for (int half = 0; half < 2; ++half) {
       const std::size_t start = hull.size();
       for (const Point p : points) {
-        while (hull.size() >= start + 2 &&
-               cdt::orient(hull[hull.size() - 2], hull.back(), p) <= 0)
+        while (hull.size() >= start + 2 && cdt::orient(hull[hull.size() - 2], hull.back(), p) <= 0)
           hull.pop_back();
         hull.push_back(p);
       }
@@ -181,10 +190,5 @@ class SceneMaker {
   Ground ground_;
   double reach_ = 10;
 };
-
-/// How long the straight pieces of a path are together.
-[[nodiscard]] inline double length_between(Point a, Point b) {
-  return std::sqrt((b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y));
-}
 
 }  // namespace loft::paths

@@ -1,17 +1,25 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <iomanip>
+#include <limits>
 #include <map>
 #include <optional>
 #include <queue>
 #include <span>
+#include <sstream>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "cdt/predicates.h"
+#include "paths/distance.h"
 #include "paths/path.h"
 #include "tests/paths/scenes.h"
 
@@ -42,7 +50,7 @@ class Truth {
       points_.push_back(barrier.to);
     }
     std::ranges::sort(points_);
-    points_.erase(std::ranges::unique(points_).begin(), points_.end());
+    points_.erase(std::unique(points_.begin(), points_.end()), points_.end());
     for (const Point p : points_) places_.push_back(place_at(p));
     links_.resize(places_.size());
     is_linked_.resize(places_.size());
@@ -74,8 +82,7 @@ class Truth {
       queue.push({length, {place, wedge}});
     };
     if (from == to) return 0;
-    for (const Link& link : links_between(start, goal))
-      shortest = std::min(shortest, link.length);
+    for (const Link& link : links_between(start, goal)) shortest = std::min(shortest, link.length);
     for (std::uint32_t p = 0; p < places_.size(); ++p)
       for (const Link& link : links_between(start, places_[p])) reach(p, link.there, link.length);
     while (!queue.empty()) {
@@ -196,8 +203,8 @@ class Truth {
       if (const auto at = find(p)) return places_[*at];
     Place place{p, {}, {}};
     for (const Barrier& b : barriers_) {
-      const bool is_inside =
-          p != b.from && p != b.to && is_between(b.from, p, b.to) && cdt::orient(b.from, b.to, p) == 0;
+      const bool is_inside = p != b.from && p != b.to && is_between(b.from, p, b.to) &&
+                             cdt::orient(b.from, b.to, p) == 0;
       if (p == b.from || is_inside) place.rays.push_back({b.to, b.is_free.first});
       if (p == b.to || is_inside) place.rays.push_back({b.from, b.is_free.second});
     }
@@ -246,11 +253,11 @@ class Truth {
     std::vector<Link> links;
     if (a.at == b.at) return links;
     const Direction there = direction(a, b.at);
-    const double length = length_between(a.at, b.at);
+    const double length = distance_between(a.at, b.at);
     const auto add = [&](std::size_t here, std::size_t other) {
       if (a.wedges[here] && b.wedges[other])
-        links.push_back({0, static_cast<std::uint32_t>(here), static_cast<std::uint32_t>(other),
-                         length});
+        links.push_back(
+            {0, static_cast<std::uint32_t>(here), static_cast<std::uint32_t>(other), length});
     };
     if (there.is_along) {
       const Point end = a.rays[there.index].to;
@@ -304,5 +311,33 @@ class Truth {
   std::vector<bool> is_linked_;
   mutable std::size_t last_ = 0;
 };
+
+inline constexpr double tolerance = 1e-12;
+
+[[nodiscard]] inline std::string name_of(const Query& query) {
+  std::ostringstream name;
+  name << std::setprecision(17) << query.from << " to " << query.to;
+  return name.str();
+}
+
+/// A path is what it says: from start to goal, clear of everything, with turns only where it must.
+inline void expect_taut(const Truth& truth, const Query& query, const Path& path) {
+  Point at = query.from;
+  double length = 0;
+  for (const Piece& piece : path.pieces) {
+    ASSERT_EQ(piece.from, at);
+    ASSERT_NE(piece.from, piece.to);
+    ASSERT_EQ(piece.turn, Turn::straight);
+    at = piece.to;
+    length += distance_between(piece.from, piece.to);
+  }
+  ASSERT_EQ(at, query.to);
+  EXPECT_NEAR(length, path.length, tolerance * length);
+  EXPECT_TRUE(truth.is_clear(path.pieces));
+  for (std::size_t i = 0; i + 1 < path.pieces.size(); ++i)
+    EXPECT_TRUE(
+        truth.turns_around_something(path.pieces[i].from, path.pieces[i].to, path.pieces[i + 1].to))
+        << path.pieces[i].to;
+}
 
 }  // namespace loft::paths

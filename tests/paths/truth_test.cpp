@@ -5,55 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <limits>
-#include <sstream>
 #include <string>
 
+#include "paths/channel.h"
 #include "paths/shortest.h"
 #include "tests/cases.h"
 
 namespace loft::paths {
 namespace {
 
-constexpr double tolerance = 1e-12;
-
 std::size_t soak_or(const char* variable, std::uint64_t otherwise) {
   const char* asked = std::getenv(variable);
   return asked != nullptr ? std::strtoull(asked, nullptr, 10) : cases(otherwise);
-}
-
-Ground ground_of(std::uint64_t seed) { return all_grounds[seed % all_grounds.size()]; }
-
-/// Some from anywhere, some from corners and edges of what is in the scene.
-Query random_query(SceneMaker& maker, const Scene& scene, std::span<const Point> corners) {
-  const auto end = [&] {
-    const std::size_t kind = maker.index(6);
-    if (kind == 0) return maker.place_on(scene);
-    if (kind == 1 && !corners.empty()) return corners[maker.index(corners.size())];
-    return maker.place();
-  };
-  const Point from = end();
-  return {.from = from, .to = end()};
-}
-
-/// A path is what it says: from start to goal, clear of everything, with turns only where it must.
-void expect_taut(const Truth& truth, const Query& query, const Path& path) {
-  Point at = query.from;
-  double length = 0;
-  for (const Piece& piece : path.pieces) {
-    ASSERT_EQ(piece.from, at);
-    ASSERT_NE(piece.from, piece.to);
-    ASSERT_EQ(piece.turn, Turn::straight);
-    at = piece.to;
-    length += length_between(piece.from, piece.to);
-  }
-  ASSERT_EQ(at, query.to);
-  EXPECT_NEAR(length, path.length, tolerance * length);
-  EXPECT_TRUE(truth.is_clear(path.pieces));
-  for (std::size_t i = 0; i + 1 < path.pieces.size(); ++i)
-    EXPECT_TRUE(truth.turns_around_something(path.pieces[i].from, path.pieces[i].to,
-                                             path.pieces[i + 1].to))
-        << path.pieces[i].to;
 }
 
 /// The right path, and as long the other way round.
@@ -77,8 +40,19 @@ void expect_right(const Setting& setting, Truth& truth, const Query& query, Work
   ASSERT_NO_FATAL_FAILURE(expect_taut(truth, query, path));
 }
 
-/// With a random one of the obstacles less, no path is longer. Not from crossings: rounded, these may
-/// be on the other side of what is left there.
+/// So often that the workspace knows where dead ends are.
+void expect_as_in_new_workspaces(const Setting& setting, std::span<const Query> queries,
+                                 Workspace& workspace) {
+  Path path;
+  for (int round = 0; round < 8; ++round)
+    for (const Query& query : queries) {
+      workspace.find(setting.space(), query, path);
+      ASSERT_EQ(path, shortest_path(setting.space(), query)) << name_of(query);
+    }
+}
+
+/// With a random one of the obstacles less, no path is longer. Not from crossings: rounded, these
+/// may be on the other side of what is left there.
 void expect_no_longer_without(const Scene& scene, SceneMaker& maker, const Setting& setting) {
   Scene less = scene;
   const std::size_t taken = maker.index(less.obstacles.size());
@@ -89,26 +63,26 @@ void expect_no_longer_without(const Scene& scene, SceneMaker& maker, const Setti
     const Path with = shortest_path(setting.space(), query);
     if (with.status != Status::found) continue;
     const Path without = shortest_path(cleared.space(), query);
-    ASSERT_EQ(without.status, Status::found) << query.from << query.to;
-    EXPECT_LE(without.length, with.length * (1 + tolerance)) << query.from << query.to;
+    ASSERT_EQ(without.status, Status::found) << name_of(query);
+    EXPECT_LE(without.length, with.length * (1 + tolerance)) << name_of(query);
   }
 }
 
 void expect_right_in_scene(std::uint64_t seed) {
   SCOPED_TRACE("seed " + std::to_string(seed));
-  SceneMaker maker(seed, ground_of(seed));
+  SceneMaker maker(seed, all_grounds[seed % all_grounds.size()]);
   const std::size_t obstacles = 20 + maker.index(81);
   const Scene scene = maker.scene(obstacles, maker.index(2) * maker.index(obstacles / 2));
   const Setting setting(scene);
   Truth truth(setting);
   Workspace workspace;
+  std::vector<Query> queries;
   for (int i = 0; i < 20; ++i) {
-    const Query query = random_query(maker, scene, truth.corners());
-    std::ostringstream name;
-    name << query.from << " to " << query.to;
-    SCOPED_TRACE(name.str());
-    ASSERT_NO_FATAL_FAILURE(expect_right(setting, truth, query, workspace));
+    queries.push_back(maker.query(scene, truth.corners()));
+    SCOPED_TRACE(name_of(queries.back()));
+    ASSERT_NO_FATAL_FAILURE(expect_right(setting, truth, queries.back(), workspace));
   }
+  ASSERT_NO_FATAL_FAILURE(expect_as_in_new_workspaces(setting, queries, workspace));
   ASSERT_NO_FATAL_FAILURE(expect_no_longer_without(scene, maker, setting));
 }
 
@@ -122,11 +96,13 @@ TEST(PathsSoak, ShortestPathsAreThoseOfTheVisibilityGraph) {
 /// Moves obstacles and walls about, one at a time, and compares with what a fresh build finds.
 void expect_paths_as_fresh(std::uint64_t seed, std::size_t moves) {
   SCOPED_TRACE("seed " + std::to_string(seed));
-  SceneMaker maker(seed, ground_of(seed));
+  SceneMaker maker(seed, all_grounds[seed % all_grounds.size()]);
   Scene scene = maker.scene(20 + maker.index(30), maker.index(12));
   Setting setting(scene);
   Workspace workspace;
   Path path;
+  ChannelSearch search;
+  Channel channel;
   for (std::size_t move = 0; move < moves; ++move) {
     const std::size_t shape = maker.index(scene.obstacles.size() + scene.walls.size());
     const bool is_obstacle = shape < scene.obstacles.size();
@@ -138,9 +114,13 @@ void expect_paths_as_fresh(std::uint64_t seed, std::size_t moves) {
     // So many now and then that the workspace learns where dead ends are.
     const int queries = move % 20 == 19 ? 100 : 4;
     for (int i = 0; i < queries; ++i) {
-      const Query query = random_query(maker, scene, {});
+      const Query query = maker.query(scene);
       workspace.find(setting.space(), query, path);
-      ASSERT_EQ(path, shortest_path(fresh.space(), query)) << move << query.from << query.to;
+      ASSERT_EQ(path, shortest_path(fresh.space(), query)) << move << ' ' << name_of(query);
+      search.find(setting.space(), query.from, query.to, channel);
+      const Channel expected = find_channel(fresh.space(), query.from, query.to);
+      ASSERT_EQ(channel.status, expected.status);
+      ASSERT_EQ(channel.portals, expected.portals) << move << ' ' << name_of(query);
     }
   }
 }
