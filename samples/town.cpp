@@ -59,9 +59,11 @@ std::vector<Ring> houses() {
   Dice dice;
   std::vector<Ring> rings;
   for (int row = 0; row < rows; ++row) {
+    const int streets_below = row / 3;
     for (int column = 0; column < columns; ++column) {
-      const Point place{19 + 20.5 * column + 9 * (column / 3) + dice.between(-1.5, 1.5),
-                        19 + 20.5 * row + 10 * (row / 3) + dice.between(-1.5, 1.5)};
+      const int streets_before = column / 3;
+      const Point place{19 + 20.5 * column + 9 * streets_before + dice.between(-1.5, 1.5),
+                        19 + 20.5 * row + 10 * streets_below + dice.between(-1.5, 1.5)};
       const double angle = 0.3 * std::sin(place.x / 45) + 0.25 * std::cos(place.y / 30);
       const double across = dice.between(12, 16.5);
       const double deep = dice.between(11.5, 16);
