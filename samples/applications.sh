@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Draws what the triangulation is used for besides surfaces: a gasket whose hole moves, and an island
-# that is dragged over a border.
+# Draws what the triangulation is used for besides surfaces: a gasket whose hole moves, an island that
+# is dragged over a border, the ways of discs through a town, and of agents among polygons.
 # Builds what that needs; installs missing Debian packages first, fetches the map with npm.
 set -eu
 cd "$(dirname "$0")/.."
@@ -13,7 +13,7 @@ fi
 # A first build leaves the tests out; one that has them keeps them.
 [ -f build/release/CMakeCache.txt ] && tests= || tests=-DLOFT_TESTS=OFF
 cmake --preset release $tests
-cmake --build --preset release -j "$(nproc)" --target loft gasket island
+cmake --build --preset release -j "$(nproc)" --target loft agents gasket island town
 
 loft=build/release/app/loft
 out=build/samples
@@ -26,6 +26,10 @@ echo "== Sicily is dragged over the border of Tunisia and Algeria"
 node samples/world/world.mjs 10m > $out/world_10m.geojson
 build/release/samples/island $out/world_10m.geojson $out/island.svg
 
+echo "== Ways through a town, for a point and two discs; 40 agents among polygons"
+build/release/samples/town $out/town.svg
+build/release/samples/agents $out/agents.svg
+
 echo "== Where the countries of the map overlap already, and where they leave gaps"
 $loft coverage $out/world_10m.geojson --gap-width 0.01 -o $out/world_faults.csv > $out/world_faults.txt
 tail -n 1 $out/world_faults.txt
@@ -35,7 +39,10 @@ cat << END
 Done. The pictures are
   $PWD/$out/gasket.svg       for any browser
   $PWD/$out/island.svg
+  $PWD/$out/town.svg
+  $PWD/$out/agents.svg
 and the table of overlaps and gaps is $PWD/$out/world_faults.csv. Next, try
   $loft overlay --help
   $loft query $out/world_10m.geojson --points points.csv
+  $loft path $out/world_10m.geojson --from 13,39 --to 14,36 -o way.svg
 END

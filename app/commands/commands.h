@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <set>
 #include <string>
 #include <vector>
 
 #include "app/exit_code.h"
+#include "cdt/point.h"
 #include "io/planar/svg.h"
 #include "io/stack.h"
 #include "overlay/coverage.h"
@@ -68,6 +71,23 @@ struct QueryCommand {
   std::optional<std::filesystem::path> lines;
   std::vector<std::filesystem::path> outputs;  ///< none: standard output
   std::optional<std::string> layer_by;         ///< a property; not given: the name, or the number
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// `loft path SCENE --from X,Y --to X,Y | --queries FILE ...`
+struct PathCommand {
+  std::filesystem::path scene;
+  std::optional<cdt::Point> from;  ///< these two, or queries
+  std::optional<cdt::Point> to;
+  std::optional<std::filesystem::path> queries;
+  std::optional<std::filesystem::path> moves;  ///< edits of the scene
+  std::vector<std::filesystem::path> outputs;  ///< none: standard output
+  double radius = 0;                           ///< where a query does not say it
+  std::size_t most_expansions = std::numeric_limits<std::size_t>::max();  ///< of a search
+  std::optional<std::string> layer_by;                                    ///< as in SceneRules
+  std::optional<std::string> free;
   io::SvgOptions drawing;
   bool json = false;
   bool quiet = false;
@@ -178,6 +198,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const OverlayCommand& command);
 [[nodiscard]] ExitCode run(const QueryCommand& command);
 [[nodiscard]] ExitCode run(const CoverageCommand& command);
+[[nodiscard]] ExitCode run(const PathCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);
 [[nodiscard]] ExitCode run(const InfoCommand& command);
 [[nodiscard]] ExitCode run(const StreamCommand& command);

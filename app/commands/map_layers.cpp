@@ -18,10 +18,6 @@ using std::filesystem::path;
 
 namespace {
 
-std::string shown_name(const path& input) {
-  return input == "-" ? std::string("standard input") : input.string();
-}
-
 /// `; its properties are 'a', 'b'`
 std::string known_properties(const io::Feature& feature) {
   std::string known;
@@ -58,6 +54,10 @@ void add_rings(std::vector<overlay::Shape>& shapes, const io::Feature& feature,
 }
 
 }  // namespace
+
+std::string shown_name(const path& input) {
+  return input == "-" ? std::string("standard input") : input.string();
+}
 
 std::vector<std::string> layer_names(std::span<const path> inputs) {
   std::vector<std::string> names;

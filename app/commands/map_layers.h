@@ -18,6 +18,9 @@ namespace loft::app {
 /// The name of the layer that each feature belongs to, by map.
 using LayerNames = std::vector<std::vector<std::string>>;
 
+/// What messages call an input: the file, or `standard input`.
+[[nodiscard]] std::string shown_name(const std::filesystem::path& input);
+
 /// What inputs are called as layers: files without folder and extension, `stdin`. Throws UsageError
 /// where two are called the same.
 [[nodiscard]] std::vector<std::string> layer_names(std::span<const std::filesystem::path> inputs);

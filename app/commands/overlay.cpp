@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-#include <algorithm>
 #include <cstddef>
 #include <iostream>
 #include <map>
@@ -8,11 +7,11 @@
 #include <span>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "app/commands/commands.h"
+#include "app/commands/map_expression.h"
 #include "app/commands/map_layers.h"
 #include "app/json.h"
 #include "app/overwriting.h"
@@ -73,45 +72,11 @@ LayerNames names_of_layers(const OverlayCommand& command, std::span<const io::Ma
   return by_input(maps, layer_names(command.inputs));
 }
 
-/// A layer as expressions name it.
-std::string quoted_name(const Overlay& overlay, LayerId layer) {
-  return io::one_line(to_string(layer, [&](LayerId one) { return overlay.name(one); }));
-}
-
-/// `layers are A, "two words", ...`, as an expression names them; so many and no more.
-std::string known_layers(const Overlay& overlay) {
-  constexpr std::size_t shown = 12;
-  std::string known;
-  for (std::size_t i = 0; i < std::min(shown, overlay.layer_count()); ++i)
-    known += (i == 0 ? "layers are " : ", ") +
-             quoted_name(overlay, LayerId(static_cast<std::uint32_t>(i)));
-  return overlay.layer_count() > shown ? known + ", ..." : known;
-}
-
-Expression parsed(const Overlay& overlay, const std::string& text) {
-  std::map<std::string, LayerId, std::less<>> layers;
-  for (std::size_t i = 0; i < overlay.layer_count(); ++i) {
-    const LayerId layer(static_cast<std::uint32_t>(i));
-    layers.emplace(overlay.name(layer), layer);
-  }
-  try {
-    return overlay::parse_expression(text, [&](std::string_view name) -> std::optional<LayerId> {
-      const auto found = layers.find(name);
-      if (found == layers.end()) return {};
-      return found->second;
-    });
-  } catch (const overlay::ExpressionError& error) {
-    throw UsageError("--keep: " + io::one_line(error.what()) + "; " + known_layers(overlay));
-  }
-}
-
 Kept keep(Overlay& overlay, const std::string& text) {
   try {
-    return {overlay.watch(parsed(overlay, text)), text};
+    return {overlay.watch(expression_over(overlay, text, "--keep")), text};
   } catch (const std::invalid_argument&) {
-    throw UsageError(
-        "--keep: the expression is true where no layer is, so without bounds; subtract from a "
-        "frame instead");
+    throw UsageError(without_bounds("--keep"));
   }
 }
 

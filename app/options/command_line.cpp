@@ -20,6 +20,7 @@
 #include "io/maps.h"
 #include "io/meshes.h"
 #include "io/polylines.h"
+#include "io/scenes.h"
 #include "io/stack.h"
 #include "io/stack_writer.h"
 #include "io/surfaces.h"
@@ -45,6 +46,7 @@ std::string footer() {
          "  loft stream capture.ndjson --follow --session capture.session --view\n"
          "  loft triangulate world.geojson -o world.svg\n"
          "  loft overlay parks.geojson lakes.geojson --keep 'parks - lakes' -o land.geojson\n"
+         "  loft path town.geojson --from 1,2 --to 30,40 --radius 0.5 -o way.svg\n"
          "\n"
          "Stacks: NDJSON, a slice a line, {\"z\": 1.5, \"contours\": [[[x, y], ...], ...]}; a "
          "contour\n"
@@ -62,6 +64,9 @@ std::string footer() {
          "Maps: GeoJSON polygons with their holes and properties.\n"
          "  maps " +
          loft::io::map_extensions() + "; maps out " + loft::io::map_output_extensions() +
+         "\n"
+         "  scenes for paths " +
+         loft::io::scene_extensions() +
          "\n"
          "\n"
          "Exit codes: 0 ok, 1 check failed, 2 usage, 3 bad input, 4 cannot write, 130 "
@@ -476,6 +481,7 @@ CommandLine::CommandLine()
   when(add_overlay(app_, overlay_), [this] { return run_at_once(overlay_); });
   when(add_coverage(app_, coverage_), [this] { return run_at_once(coverage_); });
   when(add_query(app_, query_), [this] { return run_at_once(query_); });
+  when(add_path(app_, path_), [this] { return run_at_once(path_); });
   when(add_check(app_, check_), [this] { return run_at_once(check_); });
   when(add_convert(app_, convert_), [this] { return run_at_once(convert_); });
   when(add_slice(app_, slice_), [this] {

@@ -34,6 +34,7 @@ class CommandLine {
   OverlayCommand overlay_;
   CoverageCommand coverage_;
   QueryCommand query_;
+  PathCommand path_;
   CheckCommand check_;
   InfoCommand info_;
   ConvertCommand convert_;

@@ -2,6 +2,8 @@
 #include "app/options/complaints.h"
 
 #include <CLI/CLI.hpp>
+#include <array>
+#include <cstddef>
 
 #include "io/unit.h"
 #include "mesh/admitted.h"
@@ -28,14 +30,15 @@ std::string complain_of_rate(const std::string& text) {
 
 namespace {
 
-/// Three numbers with commas between them.
-std::optional<Vec3> three_numbers(const std::string& text) {
-  Vec3 numbers{};
+/// So many numbers with commas between them.
+template <std::size_t Count>
+std::optional<std::array<double, Count>> numbers_in(const std::string& text) {
+  std::array<double, Count> numbers{};
   std::size_t begin = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const std::size_t end = axis < 2 ? text.find(',', begin) : text.size();
+  for (std::size_t i = 0; i < Count; ++i) {
+    const std::size_t end = i + 1 < Count ? text.find(',', begin) : text.size();
     if (end == std::string::npos) return {};
-    if (!CLI::detail::lexical_cast(text.substr(begin, end - begin), numbers[axis])) return {};
+    if (!CLI::detail::lexical_cast(text.substr(begin, end - begin), numbers[i])) return {};
     begin = end + 1;
   }
   return numbers;
@@ -44,7 +47,7 @@ std::optional<Vec3> three_numbers(const std::string& text) {
 }  // namespace
 
 std::optional<Vec3> spacing(const std::string& text) {
-  const auto lengths = three_numbers(text);
+  const auto lengths = numbers_in<3>(text);
   if (!lengths) return {};
   for (const double length : *lengths)
     if (!(length > 0) || !admitted::length.admits_length(length)) return {};
@@ -52,11 +55,24 @@ std::optional<Vec3> spacing(const std::string& text) {
 }
 
 std::optional<Vec3> direction(const std::string& text) {
-  const auto numbers = three_numbers(text);
+  const auto numbers = numbers_in<3>(text);
   if (!numbers || *numbers == Vec3{}) return {};
   for (const double number : *numbers)
     if (!admitted::length.admits(number)) return {};
   return numbers;
+}
+
+std::optional<cdt::Point> place(const std::string& text) {
+  const auto numbers = numbers_in<2>(text);
+  if (!numbers) return {};
+  const auto [x, y] = *numbers;
+  if (!admitted::planar.admits(x) || !admitted::planar.admits(y)) return {};
+  return cdt::Point{x, y};
+}
+
+std::string complain_of_place(const std::string& text) {
+  if (place(text)) return {};
+  return "'" + text + "' is no place; give two numbers X,Y, each 0 or from 1e-50 to 1e75";
 }
 
 std::string complain_of_direction(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "cdt/point.h"
 #include "mesh/mesh.h"
 
 namespace loft::app {
@@ -18,10 +19,13 @@ namespace loft::app {
 [[nodiscard]] std::string complain_of_rate(const std::string& text);
 [[nodiscard]] std::string complain_of_spacing(const std::string& text);
 
+[[nodiscard]] std::string complain_of_place(const std::string& text);
 [[nodiscard]] std::string complain_of_direction(const std::string& text);
 
 /// Three lengths with commas between them; none if the text is anything else.
 [[nodiscard]] std::optional<Vec3> spacing(const std::string& text);
+/// Two coordinates that a triangulation takes.
+[[nodiscard]] std::optional<cdt::Point> place(const std::string& text);
 /// Three numbers, not all 0.
 [[nodiscard]] std::optional<Vec3> direction(const std::string& text);
 

@@ -9,6 +9,7 @@
 #include "app/options/shared_options.h"
 #include "io/maps.h"
 #include "io/points.h"
+#include "io/scenes.h"
 
 namespace loft::app {
 
@@ -165,6 +166,80 @@ CLI::App* add_query(CLI::App& app, QueryCommand& command) {
       "Examples:\n"
       "  loft query world.geojson --points towns.csv -o countries.csv\n"
       "  loft query world.geojson --lines rivers.geojson -o lengths.csv -o pieces.geojson");
+  return sub;
+}
+
+CLI::App* add_path(CLI::App& app, PathCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "path", "Find shortest paths among obstacles, for points and discs, while obstacles move");
+  sub->add_option("SCENE", command.scene,
+                  "Scene file, " + io::scene_extensions() + ", or - for standard input")
+      ->required();
+  begin_group(*sub, "Queries");
+  const auto add_place = [&](const char* name, std::optional<cdt::Point>& end,
+                             const std::string& text) {
+    return sub
+        ->add_option_function<std::string>(
+            name, [&end](const std::string& given) { end = place(given); }, text)
+        ->type_name("X,Y")
+        ->check(CLI::Validator(complain_of_place, ""));
+  };
+  CLI::Option* const from = add_place("--from", command.from, "Where the path starts");
+  CLI::Option* const to = add_place("--to", command.to, "Where it ends");
+  sub->add_option("--queries", command.queries,
+                  "Table of queries, a path each, " + io::path_query_extensions() +
+                      ": columns x0, y0, x1, y1 and, if there is one, radius")
+      ->type_name("FILE")
+      ->excludes(from)
+      ->excludes(to);
+  sub->add_option("--radius", command.radius,
+                  "The centre of a disc of that radius moves, default 0: a point")
+      ->type_name("LENGTH")
+      ->check(CLI::Validator(complain_of_distance, ""));
+  sub->add_option("--most-expansions", command.most_expansions,
+                  "Give up a search that takes more steps than that")
+      ->type_name("NUMBER")
+      ->check(CLI::PositiveNumber);
+  begin_group(*sub, "Scene");
+  add_layer_option(*sub, command.layer_by,
+                   "The property that says which layer a polygon is in (default: layer); those "
+                   "without it are in the layer obstacles");
+  sub->add_option("--free", command.free,
+                  "What is free, an expression over layers as overlay --keep has it; frame is the "
+                  "box around everything, a tenth larger (default: the layer free, or else frame, "
+                  "less all other layers)")
+      ->type_name("EXPRESSION");
+  sub->add_option("--moves", command.moves,
+                  "Edits of the scene, " + io::scene_edit_extensions() +
+                      ", one a line; after each the paths are found anew")
+      ->type_name("FILE");
+  begin_group(*sub, map_results);
+  sub->add_option("-o,--output", command.outputs,
+                  "Output file: .csv, a table; .geojson .json, lines with their status and length; "
+                  ".svg, a picture of the scene with the paths; may be repeated; the table on "
+                  "standard output without it")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->footer(
+      "Polygons are obstacles unless a layer says otherwise, and lines are walls. Paths may touch\n"
+      "them, but a passage without width is closed. A path is found, unreachable, start blocked,\n"
+      "goal blocked or, with --most-expansions, gave up. Exit code 1 if --from and --to find none\n"
+      "(after the last edit).\n\n"
+      "Edits name features by their id, or property name:\n"
+      "  {\"move\": \"box7\", \"by\": [1, 0.5]}\n"
+      "  {\"ring\": \"box7\", \"points\": [[0, 0], [2, 0], [1, 1]]}\n"
+      "  {\"remove\": \"box7\"}\n"
+      "  {\"insert\": {\"id\": \"box8\", \"layer\": \"obstacles\", \"points\": [[0, 0], ...]}}\n"
+      "  {\"insert\": {\"id\": \"door\", \"line\": [[0, 0], [0, 2]]}}\n\n"
+      "Of a disc's path around a corner, files other than .svg have chords of the arc, nowhere\n"
+      "farther from it than a thousandth of the radius.\n\n"
+      "Examples:\n"
+      "  loft path town.geojson --from 1,2 --to 30,40 --radius 0.5 -o way.geojson -o way.svg\n"
+      "  loft path arena.map --queries arena.scen -o paths.csv\n"
+      "  loft path room.geojson --queries agents.csv --moves boxes.ndjson -o paths.geojson");
   return sub;
 }
 

@@ -11,5 +11,6 @@ namespace loft::app {
 CLI::App* add_overlay(CLI::App& app, OverlayCommand& command);
 CLI::App* add_coverage(CLI::App& app, CoverageCommand& command);
 CLI::App* add_query(CLI::App& app, QueryCommand& command);
+CLI::App* add_path(CLI::App& app, PathCommand& command);
 
 }  // namespace loft::app

@@ -39,6 +39,14 @@ std::optional<std::string> property(const Feature& feature, std::string_view key
   return result;
 }
 
+std::optional<std::string> id_or_name(const Feature& feature) {
+  if (!feature.id.empty()) {
+    JsonReader json(feature.id);
+    if (auto id = text_of_value(json)) return id;
+  }
+  return property(feature, "name");
+}
+
 std::vector<std::string> property_names(const Feature& feature) {
   std::vector<std::string> names;
   visit_properties(feature, [&](const std::string& key, JsonReader& json) {

@@ -33,6 +33,10 @@ struct Map {
 /// none, or it is something else.
 [[nodiscard]] std::optional<std::string> property(const Feature& feature, std::string_view key);
 
+/// What a feature is called: its id, a text or a number, or else its property `name`. None where it
+/// has neither.
+[[nodiscard]] std::optional<std::string> id_or_name(const Feature& feature);
+
 /// The names of all properties of a feature.
 [[nodiscard]] std::vector<std::string> property_names(const Feature& feature);
 

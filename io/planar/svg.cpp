@@ -12,92 +12,37 @@
 #include <vector>
 
 #include "io/planar/hues.h"
+#include "io/planar/svg_frame.h"
 #include "io/planar/svg_path.h"
-#include "reconstruct/number_text.h"
 
 namespace loft::io {
 
 namespace {
 
-constexpr double steps_per_pixel = 100;
-
-/// Where the points of the plane are in the picture.
-class Frame {
- public:
-  Frame(const PlanarMesh& mesh, double width) {
-    cdt::Box box;
-    for (const cdt::Point& point : mesh.points) box.add(point);
-    if (box.is_empty()) box.add({});
-    const double across = box.high.x - box.low.x;
-    const double up = box.high.y - box.low.y;
-    unit_ = std::max(across, up / tallest);
-    if (unit_ == 0) unit_ = 1;
-    const double margin = 0.01 * width;
-    scale_ = (width - 2 * margin) * steps_per_pixel;
-    width_ = width * steps_per_pixel;
-    height_ = 2 * margin * steps_per_pixel + up / unit_ * scale_;
-    left_ = {box.low.x, (width_ - across / unit_ * scale_) / 2};
-    top_ = {box.high.y, margin * steps_per_pixel};
-  }
-
-  [[nodiscard]] GridPoint operator()(const cdt::Point& point) const {
-    const double x = left_.margin + (point.x - left_.side) / unit_ * scale_;
-    const double y = top_.margin + (top_.side - point.y) / unit_ * scale_;
-    return {std::llround(x), std::llround(y)};
-  }
-
-  [[nodiscard]] double width() const { return width_; }
-  [[nodiscard]] double height() const { return height_; }
-
- private:
-  static constexpr double tallest = 4;  // heights a width: thin and high things get narrow
-
-  struct Side {
-    double side = 0;
-    double margin = 0;
-  };
-
-  double unit_ = 1;  // the length that is as wide as the picture without its margins
-  double scale_ = 1;
-  double width_ = 1;
-  double height_ = 1;
-  Side left_;
-  Side top_;
-};
-
-std::string rounded(double number) {
-  std::string text;
-  append_number(text, std::llround(number));
-  return text;
-}
-
-/// `1200`, `612.25`
-std::string to_pixels(double steps) {
-  std::string text;
-  append_number(text, std::round(steps) / steps_per_pixel);
-  return text;
+/// The box around all vertices.
+cdt::Box box_of(const PlanarMesh& mesh) {
+  cdt::Box box;
+  for (const cdt::Point& point : mesh.points) box.add(point);
+  return box;
 }
 
 class SvgWriter {
  public:
   SvgWriter(std::ostream& out, const PlanarMesh& mesh, const SvgOptions& options)
-      : out_(out), mesh_(mesh), frame_(mesh, options.width), hues_(choose_hues(mesh)) {
+      : out_(out), mesh_(mesh), frame_(box_of(mesh), options.width), hues_(choose_hues(mesh)) {
     places_.reserve(mesh.points.size());
     for (const cdt::Point& point : mesh.points) places_.push_back(frame_(point));
     // Where vertices are a few pixels apart, lines must be thin to be told apart.
     const double area = frame_.width() * frame_.height();
     const double spacing = std::sqrt(area / static_cast<double>(mesh.points.size() + 1));
-    line_width_ = std::clamp(0.13 * spacing, 0.35 * steps_per_pixel, 2.2 * steps_per_pixel);
+    line_width_ = std::clamp(0.13 * spacing, 0.35 * SvgFrame::steps_per_pixel,
+                             2.2 * SvgFrame::steps_per_pixel);
   }
 
   void write(const SvgOptions& options) {
-    const std::string width = rounded(frame_.width());
-    const std::string height = rounded(frame_.height());
-    out_ << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"" << to_pixels(frame_.width())
-         << "\" height=\"" << to_pixels(frame_.height()) << "\" viewBox=\"0 0 " << width << ' '
-         << height << "\" fill=\"none\" stroke-linecap=\"round\" stroke-linejoin=\"round\">\n"
-         << "<title>" << mesh_.points.size() << " vertices, " << mesh_.triangles.size()
-         << " triangles, " << mesh_.constraints.size() << " constraints</title>\n";
+    out_ << frame_.opening() << "<title>" << mesh_.points.size() << " vertices, "
+         << mesh_.triangles.size() << " triangles, " << mesh_.constraints.size()
+         << " constraints</title>\n";
     if (options.has_fill) write_regions();
     if (options.has_edges) write_edges();
     write_constraints();
@@ -211,7 +156,7 @@ class SvgWriter {
       }
     }
     begin_group("edges", paint("stroke", edge_tone) + " stroke-opacity=\"0.55\" stroke-width=\"" +
-                             rounded(0.3 * line_width_) + '"');
+                             whole_steps(0.3 * line_width_) + '"');
     path.write(out_, "");
     end_group();
   }
@@ -239,7 +184,7 @@ class SvgWriter {
         draw(pen, vertices[i - 1], vertices[i]);
       }
     }
-    begin_group("constraints", "stroke-width=\"" + rounded(line_width_) + '"');
+    begin_group("constraints", "stroke-width=\"" + whole_steps(line_width_) + '"');
     for (std::size_t hue = 0; hue < hue_count; ++hue)
       own[hue].path.write(out_, paint("stroke", dark_tone(hue)));
     shared.path.write(out_, paint("stroke", shared_tone));
@@ -263,7 +208,7 @@ class SvgWriter {
       paths[hues_.of_constraint[c]].allow_cut();
       paths[hues_.of_constraint[c]].dot(places_[vertices[0]]);
     }
-    begin_group("points", "stroke-width=\"" + rounded(3.5 * line_width_) + '"');
+    begin_group("points", "stroke-width=\"" + whole_steps(3.5 * line_width_) + '"');
     for (std::size_t hue = 0; hue < hue_count; ++hue)
       paths[hue].write(out_, paint("stroke", dark_tone(hue)));
     end_group();
@@ -271,7 +216,7 @@ class SvgWriter {
 
   std::ostream& out_;
   const PlanarMesh& mesh_;
-  Frame frame_;
+  SvgFrame frame_;
   Hues hues_;
   std::vector<GridPoint> places_;
   double line_width_ = 0;

@@ -25,9 +25,12 @@
 #include "io/meshes/ply.h"
 #include "io/meshes/stl.h"
 #include "io/planar/features_geojson.h"
+#include "io/planar/moving_ai.h"
+#include "io/planar/path_queries.h"
 #include "io/planar/points_csv.h"
 #include "io/planar/polylines_geojson.h"
 #include "io/planar/polylines_text.h"
+#include "io/planar/scene_edits.h"
 #include "io/stacks/edit.h"
 #include "io/stacks/slices_json.h"
 #include "mesh/admitted.h"
@@ -238,6 +241,28 @@ TEST(Doors, PolylinesRefuseCoordinatesWithTheirPlaces) {
     EXPECT_THROW(cdt::Triangulation().insert(Point{bad, 0}), std::invalid_argument) << bad;
   for (const double bad : {nan, infinity, -1.0, 1e76})
     EXPECT_THROW(cdt::Triangulation{bad}, std::invalid_argument) << bad;
+}
+
+TEST(Doors, ScenesRefuseNumbersWithTheirPlaces) {
+  for (const double bad : beyond(admitted::planar)) {
+    const std::string table = "0,0,1," + exact(bad) + "\n";
+    expect_named(refusal([&] { static_cast<void>(io::read_path_queries_csv(table, "a.csv")); }),
+                 "a.csv:1: y1", bad);
+    const std::string scenario = "version 1\n0 a 1 1 0 " + exact(bad) + " 1 1 1\n";
+    expect_named(
+        refusal([&] { static_cast<void>(io::read_moving_ai_scenario(scenario, "a.scen")); }),
+        "a.scen:2: y0", bad);
+    const std::string edit = R"({"move": "a", "by": [0, )" + exact(bad) + "]}";
+    expect_named(refusal([&] { static_cast<void>(io::read_scene_edits(edit, "a.ndjson")); }),
+                 "a.ndjson:1: \"by\"", bad);
+  }
+  std::vector<double> lengths = beyond(admitted::length);
+  lengths.push_back(-1);
+  for (const double bad : lengths) {
+    const std::string table = "0,0,1,1," + exact(bad) + "\n";
+    expect_named(refusal([&] { static_cast<void>(io::read_path_queries_csv(table, "a.csv")); }),
+                 "a.csv:1: radius", bad);
+  }
 }
 
 std::string ply(const std::string& number) {
