@@ -31,6 +31,7 @@ void Components::build(const FreeSpace& space) {
   const std::size_t triangles = space.mesh().triangle_bound();
   labels_.assign(triangles, none);
   search_of_.assign(triangles, none);
+  hole_of_.assign(triangles, none);
   is_touched_.assign(triangles, false);
   joined_.clear();
   for (std::uint32_t i = 0; i < triangles; ++i) {
@@ -57,6 +58,7 @@ void Components::update(const FreeSpace& space, std::span<const TriangleId> touc
   if (joined_.size() > 2 * triangles + 1024) return build(space);
   labels_.resize(triangles, none);
   search_of_.resize(triangles, none);
+  hole_of_.resize(triangles, none);
   is_touched_.resize(triangles);
 
   start_searches(space, touched);
@@ -77,7 +79,48 @@ void Components::update(const FreeSpace& space, std::span<const TriangleId> touc
   for (const Search& search : searches_)
     for (const TriangleId t : search.reached) search_of_[t.index()] = none;
   searches_.clear();
-  for (const TriangleId t : touched) is_touched_[t.index()] = false;
+  for (const TriangleId t : touched) {
+    is_touched_[t.index()] = false;
+    hole_of_[t.index()] = none;
+  }
+}
+
+/// What is touched and joined, whether one can go there or not, is a hole.
+void Components::find_holes(const FreeSpace& space, std::span<const TriangleId> touched) {
+  holes_.clear();
+  for (const TriangleId t : touched) {
+    if (hole_of_[t.index()] != none) continue;
+    const auto hole = static_cast<std::uint32_t>(holes_.size());
+    holes_.push_back(hole);
+    hole_of_[t.index()] = hole;
+    front_.assign(1, t);
+    while (!front_.empty()) {
+      const TriangleId here = front_.back();
+      front_.pop_back();
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        const EdgeId twin = space.mesh().twin(Triangulation::edge(here, corner));
+        const TriangleId next = Triangulation::triangle(twin);
+        if (!is_touched_[next.index()] || hole_of_[next.index()] != none) continue;
+        hole_of_[next.index()] = hole;
+        front_.push_back(next);
+      }
+    }
+  }
+}
+
+std::uint32_t Components::whole_hole(std::uint32_t hole) const {
+  while (holes_[hole] != hole) hole = holes_[hole];
+  return hole;
+}
+
+/// What was settled for one of two holes alone may not be so for both.
+void Components::join_holes(std::uint32_t a, std::uint32_t b) {
+  const std::uint32_t from = whole_hole(a);
+  const std::uint32_t to = whole_hole(b);
+  if (from == to) return;
+  holes_[from] = to;
+  for (Search& search : searches_)
+    if (whole_hole(search.hole) == to) search.is_over = false;
 }
 
 /// One for each part of what was touched, with what is beside it, and one for each of those beside
@@ -87,16 +130,17 @@ void Components::start_searches(const FreeSpace& space, std::span<const Triangle
     is_touched_[t.index()] = true;
     labels_[t.index()] = none;
   }
+  find_holes(space, touched);
   leaders_.clear();
-  const auto begin = [this](TriangleId t) {
+  const auto begin = [this](TriangleId t, std::uint32_t hole) {
     const auto search = static_cast<std::uint32_t>(searches_.size());
-    searches_.emplace_back();
+    searches_.emplace_back().hole = hole;
     leaders_.push_back(search);
     return reach(t, search);
   };
   for (const TriangleId t : touched) {
     if (!space.is_free(t) || search_of_[t.index()] != none) continue;
-    std::uint32_t search = begin(t);
+    std::uint32_t search = begin(t, hole_of_[t.index()]);
     front_.assign(1, t);
     while (!front_.empty()) {
       const TriangleId here = front_.back();
@@ -112,9 +156,13 @@ void Components::start_searches(const FreeSpace& space, std::span<const Triangle
   for (const TriangleId t : touched) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       const TriangleId beside = Triangulation::triangle(mesh.twin(Triangulation::edge(t, corner)));
-      if (!is_touched_[beside.index()] && space.is_free(beside) &&
-          search_of_[beside.index()] == none)
-        begin(beside);
+      if (is_touched_[beside.index()] || !space.is_free(beside)) continue;
+      const std::uint32_t hole = hole_of_[t.index()];
+      const std::uint32_t known = search_of_[beside.index()];
+      if (known == none)
+        begin(beside, hole);
+      else
+        join_holes(searches_[leader(known)].hole, hole);
     }
   }
 }
@@ -143,6 +191,8 @@ std::uint32_t Components::meet(std::uint32_t a, std::uint32_t b) {
   Search& large = searches_[a];
   Search& small = searches_[b];
   leaders_[b] = a;
+  join_holes(small.hole, large.hole);
+  large.is_over = false;
   // What has its neighbours known goes before what has not.
   const auto open = large.reached.begin() + static_cast<std::ptrdiff_t>(large.next);
   const auto done = small.reached.begin() + static_cast<std::ptrdiff_t>(small.next);
@@ -163,10 +213,13 @@ void Components::step(const FreeSpace& space, std::uint32_t search) {
   for_each_beyond(space, t, [&](TriangleId next) { search = reach(next, leader(search)); });
 }
 
-/// Whether what a search has reached may keep its labels: no other search has any of them.
+/// Whether what a search has reached may keep its labels: no other search from its hole has any of
+/// them.
 bool Components::is_settled(std::uint32_t search) const {
+  const std::uint32_t hole = whole_hole(searches_[search].hole);
   for (std::uint32_t other = 0; other < searches_.size(); ++other) {
     if (other == search || leaders_[other] != other || searches_[other].is_over) continue;
+    if (whole_hole(searches_[other].hole) != hole) continue;
     for (const std::uint32_t label : searches_[search].labels)
       if (std::ranges::find(searches_[other].labels, label) != searches_[other].labels.end())
         return false;

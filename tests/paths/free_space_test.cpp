@@ -91,6 +91,12 @@ TEST(FreeSpace, ComponentsAreThoseOfAFreshBuildAfterAnyEdits) {
       const auto moved = rings[random() % rings.size()];
       overlay.translate(moved, {number(40) - 20, number(40) - 20});
       space.follow();
+      // Several holes, far from one another.
+      overlay.begin_batch();
+      for (int k = 0; k < i % 4; ++k)
+        overlay.translate(rings[random() % rings.size()], {number(160) - 80, number(160) - 80});
+      overlay.end_batch();
+      space.follow();
       const FreeSpace fresh(overlay, free, walling);
       ASSERT_NO_FATAL_FAILURE(expect_same_components(space, fresh));
     }
