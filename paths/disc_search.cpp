@@ -62,9 +62,31 @@ void DiscSearch::find(const FreeSpace& space, const Query& query, Path& path) {
     else
       expand(step.interval);
   }
-  if (last_ == none) return;
-  path.status = Status::found;
-  put_together(path);
+  if (last_ != none) {
+    path.status = Status::found;
+    put_together(path);
+  } else if (is_joined()) {
+    path.status = Status::gave_up;
+  }
+}
+
+/// Whether triangles lead from the start to the goal.
+bool DiscSearch::is_joined() const {
+  std::vector<bool> is_reached(mesh_->triangle_bound());
+  std::vector<TriangleId> front(starts_);
+  for (const TriangleId t : front) is_reached[t.index()] = true;
+  while (!front.empty()) {
+    const TriangleId t = front.back();
+    front.pop_back();
+    if (is_goal(t)) return true;
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId entry = beyond(Triangulation::edge(t, corner));
+      if (entry.is_none() || is_reached[entry.index() / 3]) continue;
+      is_reached[entry.index() / 3] = true;
+      front.push_back(Triangulation::triangle(entry));
+    }
+  }
+  return false;
 }
 
 void DiscSearch::begin(const FreeSpace& space, const Query& query) {

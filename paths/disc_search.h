@@ -18,7 +18,8 @@ namespace loft::paths {
 /// passes, with circles around the corners in the place of corners, and tangents in that of rays.
 /// What a root sees of an edge is between the tangents to the circles at its sides.
 ///
-/// Whether there is a way is decided exactly, by the gaps; tangents are rounded.
+/// Whether there is a way is decided exactly, by the gaps; tangents are rounded. Each straight
+/// piece is swept before it counts, so that what is looked at may be more than what is seen.
 class DiscSearch {
  public:
   /// Puts the shortest path in `path`. Precondition: radius > 0; the space keeps gaps.
@@ -102,6 +103,7 @@ class DiscSearch {
   void put_together(Path& path) const;
 
   [[nodiscard]] bool is_goal(TriangleId t) const;
+  [[nodiscard]] bool is_joined() const;
   [[nodiscard]] EdgeId beyond(EdgeId e) const { return gaps_->beyond(e, radius_); }
   /// The radius of the circle around from(e), as seen from the left of e.
   [[nodiscard]] double radius_at(EdgeId e) const {

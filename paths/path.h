@@ -18,7 +18,7 @@ enum class Status {
   start_blocked,  ///< the start is inside an obstacle, outside of everything, or nearer than the
                   ///< radius to what is not free
   goal_blocked,   ///< the same of the goal, where the start is free
-  gave_up,        ///< the query's bound on expansions was met
+  gave_up,        ///< the query's bound on expansions was met, or, for a disc, rounding hid the way
 };
 
 /// From where to where.

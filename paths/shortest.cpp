@@ -9,6 +9,7 @@
 #include "paths/clearance.h"
 #include "paths/directions.h"
 #include "paths/distance.h"
+#include "paths/visible.h"
 
 namespace loft::paths {
 
@@ -83,7 +84,18 @@ void Workspace::find(const FreeSpace& space, const Query& query, Path& path) {
   (void)dead_ends_.prepare(space, expansions_);
   const bool gave_up = !heap_.empty() && heap_.front().estimate < length_;
   path.status = gave_up ? Status::gave_up : Status::found;
-  if (!gave_up) put_together(path);
+  if (gave_up) return;
+  put_together(path);
+  straighten(query, path);
+}
+
+/// A turn of less than rounding is none, if the goal is seen from the start.
+void Workspace::straighten(const Query& query, Path& path) const {
+  const double straight = distance_between(query.from, query.to);
+  if (path.pieces.size() < 2 || path.length > straight * (1 + 0x1p-50)) return;
+  if (!sees(*space_, query.from, query.to)) return;
+  path.length = straight;
+  path.pieces.assign(1, {.from = query.from, .to = query.to});
 }
 
 void Workspace::begin(const FreeSpace& space, const Query& query) {
