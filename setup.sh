@@ -14,15 +14,15 @@ packages="g++ cmake ninja-build pkg-config libopenmesh-dev libeigen3-dev libtbb-
   nlohmann-json3-dev"
 what=${1:-}
 if [ "$what" = fuzz ]; then
-  packages="$packages clang-16 libclang-rt-16-dev"
+  packages="$packages libclang-rt-16-dev"
   what=tests
 fi
 if [ "$what" = bench ]; then
   packages="$packages libbenchmark-dev"
 fi
 if [ "$what" = tests ]; then
-  packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-tidy-16 chromium
-    doxygen groff-base bsdutils"
+  packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-16 clang-tidy-16
+    chromium doxygen groff-base bsdutils"
 fi
 # Node.js often comes from elsewhere than Debian, npm with it.
 if [ -n "${1:-}" ] && ! command -v npm > /dev/null; then

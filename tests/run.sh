@@ -1,13 +1,13 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Builds everything and runs the tests. Installs missing Debian packages first.
-#   sh tests/run.sh [PRESET]     release (default), dev, asan or tsan: see CMakePresets.json
+#   sh tests/run.sh [PRESET]     release (default), dev, asan, tsan or fuzz: see CMakePresets.json
 # Ends with a line `N passed, N failed`; exit code 0 only if all passed.
 set -eu
 cd "$(dirname "$0")/.."
 preset=${1:-release}
 
-sh setup.sh tests
+[ "$preset" = fuzz ] && sh setup.sh fuzz || sh setup.sh tests
 if [ ! tests/io/node_modules/.package-lock.json -nt tests/io/package-lock.json ]; then
   npm ci --prefix tests/io --no-audit --no-fund
 fi

@@ -6,17 +6,11 @@ set(build ${PROJECT_BINARY_DIR})
 add_test(NAME style.layers COMMAND sh ${root}/tests/layers.sh)
 add_test(NAME style.format COMMAND sh ${root}/tests/style.sh format)
 add_test(NAME style.tidy COMMAND sh ${root}/tests/style.sh tidy ${build})
-set_tests_properties(style.layers style.format style.tidy PROPERTIES LABELS style)
-# clang-tidy keeps all cores busy by itself.
+add_test(NAME style.alone COMMAND sh ${root}/tests/style.sh alone ${build})
+set_tests_properties(style.layers style.format style.tidy style.alone PROPERTIES LABELS style)
+# They keep all cores busy by themselves.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
-set_tests_properties(style.tidy PROPERTIES PROCESSORS ${cores} TIMEOUT 1200)
-
-# Every public header compiles by itself (set by the presets).
-if(CMAKE_VERIFY_INTERFACE_HEADER_SETS)
-  add_test(NAME style.headers
-    COMMAND ${CMAKE_COMMAND} --build ${build} --target all_verify_interface_header_sets)
-  set_tests_properties(style.headers PROPERTIES LABELS style)
-endif()
+set_tests_properties(style.tidy style.alone PROPERTIES PROCESSORS ${cores} TIMEOUT 1200)
 
 # readme_example(NAME FILE LIBRARY): the first C++ example in FILE compiles and runs.
 function(readme_example name file library)

@@ -1,8 +1,9 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Checks the sources against .clang-format and .clang-tidy.
+# Checks the sources against .clang-format and .clang-tidy, and that each names what it needs.
 #   sh tests/style.sh format         to repair: git ls-files '*.h' '*.cpp' | xargs clang-format -i
 #   sh tests/style.sh tidy BUILD     BUILD is a folder for what it needs
+#   sh tests/style.sh alone BUILD    every source and every header compiles by itself
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -12,22 +13,61 @@ ours() {
   shift
   find "$@" -name node_modules -prune -o -name "$pattern" -print | LC_ALL=C sort
 }
+libraries="cdt overlay paths mesh reconstruct io"
+
+# The files that are compiled, in the order of a build: sources, and folders of them joined.
+compiled() {
+  sed -n 's/^ *"file": "\(.*\)",*$/\1/p' "$1/compile_commands.json"
+}
+
+# Our sources that no folder joins.
+single() {
+  compiled "$1" | grep '/Unity/' | xargs sed -n 's/^#include "\(.*\)"$/\1/p' > "$1/joined.txt"
+  ours '*.cpp' $libraries app samples | sed "s|^|$PWD/|" | grep -vxFf "$1/joined.txt"
+}
+
+# A header that is what its source includes first is compiled by itself with that.
+untried_headers() {
+  for header in $(ours '*.h' $libraries app samples); do
+    source=${header%.h}.cpp
+    [ -f "$source" ] && grep -m 1 '^#include' "$source" | grep -qF "\"$header\"" || echo "$header"
+  done
+}
+
+# The standard headers as one module, so that they are read once, and each shows only what it says.
+standard_module() {
+  folder=$(echo '#include <vector>' | clang++-16 -x c++ -M - | grep -m 1 -o '[^ ]*/vector')
+  folder=${folder%/vector}
+  echo 'module standard [system] {'
+  grep -rhoE --include='*.h' --include='*.cpp' --exclude-dir=node_modules '^#include <[a-z_]+>' $libraries app samples |
+    sort -u | sed 's/.*<\(.*\)>/\1/' | grep -vx cassert | while read -r header; do
+      [ ! -f "$folder/$header" ] || echo "  module _$header { header \"$folder/$header\" export * }"
+    done
+  echo '}'
+}
 
 case ${1:-} in
   format)
-    { ours '*.h' cdt overlay paths mesh reconstruct io app tests samples bench
-      ours '*.cpp' cdt overlay paths mesh reconstruct io app tests samples bench; } |
+    { ours '*.h' $libraries app tests samples bench
+      ours '*.cpp' $libraries app tests samples bench; } |
       xargs clang-format --dry-run -Werror
     ;;
   tidy)
-    # Each file by itself: it must include what it needs.
-    cmake -S . -B "$2/tidy" -G Ninja -DLOFT_UNITY=OFF -DLOFT_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > "$2/tidy.txt" ||
+    # Folders are joined as they are for building, so that headers are read once a folder.
+    cmake -S . -B "$2/tidy" -G Ninja -DLOFT_UNITY=ON -DLOFT_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > "$2/tidy.txt" ||
       { cat "$2/tidy.txt"; exit 1; }
-    ours '*.cpp' cdt overlay paths mesh reconstruct io app samples |
+    { compiled "$2/tidy" | grep '/Unity/'; single "$2/tidy"; } |
       xargs -n 1 -P "$(nproc)" clang-tidy-16 --quiet -p "$2/tidy"
     ;;
+  alone)
+    mkdir -p "$2/alone"
+    standard_module > "$2/alone/modules.txt"
+    { ours '*.cpp' $libraries app samples; untried_headers; } |
+      xargs -n 4 -P "$(nproc)" clang++-16 -std=c++20 -DNDEBUG -fsyntax-only -w -I. $(pkg-config --cflags eigen3 cpp-httplib) \
+        -fmodules -fmodule-map-file="$2/alone/modules.txt" -fmodules-cache-path="$2/alone"
+    ;;
   *)
-    echo "usage: sh tests/style.sh format | tidy BUILD" >&2
+    echo "usage: sh tests/style.sh format | tidy BUILD | alone BUILD" >&2
     exit 2
     ;;
 esac

@@ -141,7 +141,7 @@ class Areas : public testing::TestWithParam<Ground> {};
 
 TEST_P(Areas, OfRandomPolygonsAreExact) {
   constexpr std::uint64_t first_seed = 20240901;
-  for (std::uint64_t seed = first_seed; seed < first_seed + cases(100); ++seed) {
+  for (std::uint64_t seed = first_seed; seed < first_seed + cases(50); ++seed) {
     SCOPED_TRACE(std::string(name_of(GetParam())) + ", seed " + std::to_string(seed));
     expect_exact_areas(random_polygons(seed, GetParam()));
     if (HasFailure()) return;
