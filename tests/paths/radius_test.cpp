@@ -105,7 +105,7 @@ TEST(Radius, AgreesWithGrownObstacles) {
   int undecided = 0;
   int found = 0;
   int none = 0;
-  const char* const more = std::getenv("LOFT_SOAK_SCENES");
+  const char* const more = std::getenv("LOFT_SOAK_DISCS");
   const unsigned scenes = more == nullptr ? 12 : static_cast<unsigned>(std::atoi(more));
   for (unsigned seed = 0; seed < scenes; ++seed) {
     SCOPED_TRACE(seed);
