@@ -25,9 +25,10 @@ namespace {
 /// nothing can be seen, and the others. A triangle has no more than one way to it, so none is seen
 /// twice but around obstacles.
 template <class Reach, class Look>
-void look_around(const Gaps& gaps, Point p, TriangleId start, Reach reach, Look look) {
+void look_around(const Gaps& gaps, Point p, TriangleId start, std::vector<TriangleId>& seen,
+                 Reach reach, Look look) {
   const Triangulation& mesh = gaps.mesh();
-  std::vector<TriangleId> seen{start};
+  seen.assign(1, start);
   for (std::size_t i = 0; i < seen.size(); ++i) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(seen[i], corner);
@@ -80,8 +81,9 @@ double clearance(const FreeSpace& space, Point p) {
   if (start.is_none() || !space.is_free(p)) return 0;
   const Triangulation& mesh = gaps.mesh();
   double least = std::numeric_limits<double>::infinity();
+  std::vector<TriangleId> seen;
   look_around(
-      gaps, p, start, [&] { return least; },
+      gaps, p, start, seen, [&] { return least; },
       [&](EdgeId e) {
         const Point a = mesh.point(mesh.from(e));
         least = std::min(least, distance_between(a, p));
@@ -93,13 +95,18 @@ double clearance(const FreeSpace& space, Point p) {
 }
 
 bool is_clear(const FreeSpace& space, Point p, double radius) {
+  std::vector<TriangleId> seen;
+  return is_clear(space, p, radius, seen);
+}
+
+bool is_clear(const FreeSpace& space, Point p, double radius, std::vector<TriangleId>& scratch) {
   const Gaps& gaps = gaps_of(space);
   const TriangleId start = triangle_in_gaps(gaps, p);
-  if (start.is_none() || !space.is_free(p)) return false;
+  if (start.is_none()) return false;
   const Triangulation& mesh = gaps.mesh();
   bool is_so = true;
   look_around(
-      gaps, p, start, [&] { return is_so ? radius : -1; },
+      gaps, p, start, scratch, [&] { return is_so ? radius : -1; },
       [&](EdgeId e) {
         if (!gaps.is_foot(mesh.from(e)))
           is_so = is_so && is_as_far(p, mesh.point(mesh.from(e)), radius);

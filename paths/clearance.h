@@ -15,6 +15,9 @@ namespace loft::paths {
 /// Whether a disc can stand at a point: nothing that blocks the way is nearer than its radius.
 /// Exact. Precondition: as above.
 [[nodiscard]] bool is_clear(const FreeSpace& space, Point p, double radius);
+/// The same in memory that is there already.
+[[nodiscard]] bool is_clear(const FreeSpace& space, Point p, double radius,
+                            std::vector<TriangleId>& scratch);
 
 /// The radius of the largest disc that gets from one point to another: one of this radius does, and
 /// none whose radius is the next double; 0 if only a point does, negative if nothing does.

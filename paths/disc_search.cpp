@@ -40,13 +40,15 @@ void DiscSearch::find(const FreeSpace& space, const Query& query, Path& path) {
   path.pieces.clear();
   path.length = std::numeric_limits<double>::infinity();
   expansions_ = 0;
-  const bool is_start_clear = is_clear(space, query.from, query.radius);
-  if (!is_start_clear || !is_clear(space, query.to, query.radius)) {
+  const bool is_start_clear = is_clear(space, query.from, query.radius, starts_);
+  if (!is_start_clear || !is_clear(space, query.to, query.radius, starts_)) {
     path.status = is_start_clear ? Status::goal_blocked : Status::start_blocked;
     return;
   }
   path.status = Status::unreachable;
-  if (!space.is_reachable(query.from, query.to)) return;
+  space.triangles_at(query.from, starts_);
+  space.triangles_at(query.to, goals_);
+  if (!space.is_joined(starts_, goals_)) return;
   begin(space, query);
   for (const TriangleId t : starts_) start(t);
   while (!heap_.empty() && heap_.front().estimate < length_) {
@@ -168,6 +170,7 @@ void DiscSearch::start_through(EdgeId e) {
   const auto bend = [&](const Bound& third) {
     const auto root = static_cast<std::uint32_t>(roots_.size());
     const Tangent there = tangent(roots_[0].circle, third.circle);
+    if (!is_way_clear(0, there, third.circle)) return;
     roots_.push_back({third.circle, there.along, there.length, 0, none, names_++});
     Interval turned = seen;
     turned.root = root;
@@ -181,7 +184,7 @@ void DiscSearch::start_through(EdgeId e) {
   if (third_left.circle.radius > 0 && is_in_the_way(third_left, seen.left, 1)) {
     rest.left = {third_left.circle, third_left.along, false};
     bend(third_left);
-  } else if (third_left.circle.radius > 0 && is_in_the_way(third_right, seen.right, -1)) {
+  } else if (third_right.circle.radius < 0 && is_in_the_way(third_right, seen.right, -1)) {
     rest.right = {third_right.circle, third_right.along, false};
     bend(third_right);
   }
@@ -191,10 +194,8 @@ void DiscSearch::start_through(EdgeId e) {
     push(rest);
   if (room > same_direction) return;
   // What the sides of the view hide of each other.
-  if (rest.left.is_at_end && comes_first(roots_[0], rest.left, rest.right.circle))
-    turn_at(entry, 0, rest.left.circle);
-  else if (rest.right.is_at_end)
-    turn_at(Triangulation::next(entry), 0, rest.right.circle);
+  if (rest.left.is_at_end) turn_at(entry, 0, rest.left.circle);
+  if (rest.right.is_at_end) turn_at(Triangulation::next(entry), 0, rest.right.circle);
 }
 
 /// Whether a path along a bound touches its circle before it would come to another.
@@ -316,7 +317,7 @@ void DiscSearch::expand(const Interval& interval) {
       left_room >= -same_direction || reaches(root, interval.left, -1, from(at_apex));
   const bool sees_right =
       right_room >= -same_direction || reaches(root, interval.right, 1, from(at_apex));
-  // What is between the end of the view and the apex is seen from the one that comes first.
+  // What is between the end of the view and the apex is seen from either of them.
   if (left_room <= same_direction && interval.left.is_at_end) {
     turn_at(e, interval.root, interval.left.circle);
     if (const EdgeId left = beyond(at_apex); !left.is_none())
@@ -428,9 +429,7 @@ void DiscSearch::expand(const Bend& bend) {
     if ((room >= -same_direction || reaches(root, near, side, far.circle.centre)) &&
         !entry.is_none())
       push(is_left ? Interval{entry, number, far, near} : Interval{entry, number, near, far});
-    if (room > same_direction) {
-      // Nothing is hidden.
-    } else if (near.is_at_end) {
+    if (room <= same_direction && near.is_at_end) {
       turn_at(at_near, number, near.circle);
       if (!entry.is_none())
         turn_at(is_left ? entry : Triangulation::next(entry), number, far.circle);

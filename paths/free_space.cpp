@@ -205,9 +205,14 @@ bool FreeSpace::is_reachable(Point from, Point to) const {
   std::vector<TriangleId> goals;
   triangles_at(from, starts);
   triangles_at(to, goals);
-  return std::ranges::any_of(starts, [&](TriangleId start) {
+  return is_joined(starts, goals);
+}
+
+bool FreeSpace::is_joined(std::span<const TriangleId> some,
+                          std::span<const TriangleId> others) const {
+  return std::ranges::any_of(some, [&](TriangleId one) {
     return std::ranges::any_of(
-        goals, [&](TriangleId goal) { return component(start) == component(goal); });
+        others, [&](TriangleId other) { return component(one) == component(other); });
   });
 }
 

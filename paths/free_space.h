@@ -100,6 +100,9 @@ class FreeSpace {
   [[nodiscard]] bool is_free(Point p) const;
   /// Whether a way leads from one point to another. Cost: to locate both.
   [[nodiscard]] bool is_reachable(Point from, Point to) const;
+  /// Whether a way leads from any of some free triangles to any of others.
+  [[nodiscard]] bool is_joined(std::span<const TriangleId> some,
+                               std::span<const TriangleId> others) const;
 
  private:
   void build();
