@@ -2,7 +2,6 @@
 // An agent goes through a room whose boxes drift and turn, and looks for another way whenever one
 // of them has come into its own: room room.svg
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -59,11 +58,11 @@ class Dice {
   }
 
  private:
-  std::mt19937_64 random_{11};
+  std::mt19937_64 random_{9};
 };
 
 struct Box {
-  Ring shape;        // around the origin
+  Ring shape{};      // around the origin
   double reach = 0;  // no corner is further from there
   Point place{};
   double angle = 0;
@@ -73,8 +72,8 @@ struct Box {
 
 /// 4 to 8 corners on an ellipse.
 Box random_box(Dice& dice) {
-  const double across = dice.between(9, 13);
-  const double deep = dice.between(6, 10);
+  const double across = dice.between(10, 15);
+  const double deep = dice.between(7, 10);
   const int corner_count = static_cast<int>(dice.between(4, 9));
   Box box{.reach = std::max(across, deep)};
   for (int i = 0; i < corner_count; ++i) {
@@ -85,7 +84,7 @@ Box random_box(Dice& dice) {
                dice.between(box.reach, height - box.reach)};
   box.angle = dice.between(0, 2 * std::numbers::pi);
   const double way = dice.between(0, 2 * std::numbers::pi);
-  const double speed = dice.between(0.05, 0.2);
+  const double speed = dice.between(0.08, 0.22);
   box.drift = {speed * std::cos(way), speed * std::sin(way)};
   box.turn = dice.between(-0.012, 0.012);
   return box;
@@ -100,8 +99,8 @@ Ring corners(const Box& box) {
 }
 
 bool is_in_room(const Box& box) {
-  return box.place.x >= box.reach && box.place.x <= width - box.reach &&
-         box.place.y >= box.reach && box.place.y <= height - box.reach;
+  return box.place.x >= box.reach && box.place.x <= width - box.reach && box.place.y >= box.reach &&
+         box.place.y <= height - box.reach;
 }
 
 /// Boxes keep off each other as if they were round.
@@ -125,7 +124,7 @@ std::vector<Box> random_boxes(Dice& dice) {
 }
 
 /// A box drifts and turns; where something is in its way it turns back. It lets the agent pass.
-void step(std::vector<Box>& boxes, std::size_t which, Point agent) {
+void drift(std::vector<Box>& boxes, std::size_t which, Point agent) {
   Box& box = boxes[which];
   Box moved = box;
   moved.place = {box.place.x + box.drift.x, box.place.y + box.drift.y};
@@ -177,11 +176,11 @@ Point walk(Path& way, Point from, double distance) {
   return from;
 }
 
-/// What is drawn of a step.
+/// What is drawn of a time.
 struct Moment {
-  std::vector<Ring> boxes;
-  std::vector<Point> walked;
-  std::vector<Point> left;
+  std::vector<Ring> boxes{};
+  std::vector<Point> walked{};
+  std::vector<Point> left{};
 };
 
 using Clock = std::chrono::steady_clock;
@@ -202,7 +201,7 @@ class Room {
   [[nodiscard]] bool is_there() const { return walked_.back() == goal; }
 
   void step() {
-    for (std::size_t i = 0; i < boxes_.size(); ++i) ::step(boxes_, i, walked_.back());
+    for (std::size_t i = 0; i < boxes_.size(); ++i) drift(boxes_, i, walked_.back());
     const auto begin = Clock::now();
     move_boxes();
     space_.follow();
@@ -220,11 +219,12 @@ class Room {
   }
 
   void report() const {
-    std::printf("%d steps, %d times another way; %s after %.9f\n", steps_, replans_,
+    std::printf("%d steps, another way looked for %d times; %s after %.9f\n", steps_, replans_,
                 is_there() ? "there" : "not there", length());
-    std::printf("%.1f us to move %d boxes, follow, and know whether the way is broken; %.1f us to "
-                "find another\n",
-                edits_took_.count() / steps_, box_count, replans_took_.count() / replans_);
+    std::printf(
+        "%.1f us to move %d boxes, follow, and know whether the way is broken; %.1f us to "
+        "find another\n",
+        edits_took_.count() / steps_, box_count, replans_took_.count() / replans_);
   }
 
  private:
@@ -270,7 +270,8 @@ class Room {
   Microseconds replans_took_{};
 };
 
-/// Four moments, two beside each other.
+/// Four moments, two beside each other; with each, pale, where the boxes were in the one before,
+/// and the way that was meant then.
 class Picture {
  public:
   explicit Picture(std::ostream& out) : out_(out) {
@@ -280,17 +281,16 @@ class Picture {
 
   void draw(const Moment& now, const Moment& before, int number) {
     shift_ = {(width + gap) * (number % 2), (height + gap) * (1 - number / 2)};
-    const std::string line =
-        "\" stroke=\"" + to_hex(border_tone) + "\" stroke-width=\"" + whole_steps(0.8 * pixel);
-    draw_rings({{{0, 0}, {width, 0}, {width, height}, {0, height}}},
-               "fill=\"" + to_hex(free_tone) + line + '"');
-    draw_rings(before.boxes, "fill=\"" + to_hex(ghost_tone) + '"');
-    draw_rings(now.boxes, "fill=\"" + to_hex(box_tone) + line + '"');
+    const std::string outline = stroke(border_tone, 0.8 * pixel);
+    draw_rings({{{0, 0}, {width, 0}, {width, height}, {0, height}}}, outline + fill(free_tone));
+    draw_rings(before.boxes, fill(ghost_tone));
+    draw_rings(now.boxes, outline + fill(box_tone));
+    draw_line(before.left, left_tone, 1.2 * pixel, dashes);
     draw_way(now.walked, walked_tone);
     draw_way(now.left, left_tone);
     draw_dot(goal, left_tone, 7 * pixel);
     draw_dot(start, walked_tone, 7 * pixel);
-    draw_dot(now.walked.back(), agent_tone, frame_.length(2 * radius));
+    draw_dot(now.walked.back(), left_tone, frame_.length(2 * radius));
   }
 
   void finish() { out_ << "</svg>\n"; }
@@ -298,14 +298,19 @@ class Picture {
  private:
   static constexpr double pixel = SvgFrame::steps_per_pixel;
   static constexpr double gap = 6;  // between two moments
+  static constexpr const char* dashes = "stroke-opacity=\"0.5\" stroke-dasharray=\"300 400\"";
   static constexpr Colour page_tone{0xff, 0xff, 0xff};
   static constexpr Colour free_tone{0xfb, 0xfa, 0xf6};
-  static constexpr Colour ghost_tone{0xee, 0xee, 0xec};
+  static constexpr Colour ghost_tone{0xea, 0xea, 0xe8};
   static constexpr Colour box_tone{0xc9, 0xcf, 0xd6};
   static constexpr Colour border_tone{0x7d, 0x87, 0x93};
   static constexpr Colour walked_tone{0x37, 0x5c, 0xa0};
   static constexpr Colour left_tone{0xa8, 0x3c, 0x34};
-  static constexpr Colour agent_tone{0xa8, 0x3c, 0x34};
+
+  static std::string fill(Colour tone) { return "fill=\"" + to_hex(tone) + "\" "; }
+  static std::string stroke(Colour tone, double across) {
+    return "stroke=\"" + to_hex(tone) + "\" stroke-width=\"" + whole_steps(across) + "\" ";
+  }
 
   [[nodiscard]] loft::io::GridPoint place(Point p) const {
     return frame_({p.x + shift_.x, p.y + shift_.y});
@@ -323,23 +328,27 @@ class Picture {
 
   /// The line, and what the agent sweeps.
   void draw_way(const std::vector<Point>& points, Colour tone) {
+    draw_line(points, tone, frame_.length(2 * radius), "stroke-opacity=\"0.2\"");
+    draw_line(points, tone, 1.8 * pixel);
+  }
+
+  void draw_line(const std::vector<Point>& points, Colour tone, double across,
+                 const std::string& attributes = "") {
     if (points.size() < 2) return;
     SvgPath path;
     path.move(place(points.front()));
     for (const Point p : points) path.line(place(p));
-    const std::string stroke = "stroke=\"" + to_hex(tone) + "\" stroke-width=\"";
-    path.write(out_, stroke + whole_steps(frame_.length(2 * radius)) + "\" stroke-opacity=\"0.2\"");
-    path.write(out_, stroke + whole_steps(1.8 * pixel) + '"');
+    path.write(out_, stroke(tone, across) + attributes);
   }
 
   void draw_dot(Point p, Colour tone, double across) {
     SvgPath path;
     path.dot(place(p));
-    path.write(out_, "stroke=\"" + to_hex(tone) + "\" stroke-width=\"" + whole_steps(across) + '"');
+    path.write(out_, stroke(tone, across));
   }
 
   std::ostream& out_;
-  SvgFrame frame_{{{0, 0}, {2 * width + gap, 2 * height + gap}}, 1000};
+  SvgFrame frame_{{{0, 0}, {2 * width + gap, 2 * height + gap}}, 900};
   Point shift_{};
 };
 
