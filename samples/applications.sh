@@ -1,8 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Draws what the triangulation is used for besides surfaces: a gasket whose hole moves, an island that
-# is dragged over a border, the ways of discs through a town, of agents among polygons, and of one agent
-# through a room whose boxes move.
+# is dragged over a border, the ways of discs through a town, of agents among polygons, and of one
+# agent through a room whose boxes move.
 # Builds what that needs; installs missing Debian packages first, fetches the map with npm.
 set -eu
 cd "$(dirname "$0")/.."

@@ -280,7 +280,9 @@ class Picture {
   }
 
   void draw(const Moment& now, const Moment& before, int number) {
-    shift_ = {(width + gap) * (number % 2), (height + gap) * (1 - number / 2)};
+    const int column = number % 2;
+    const int row = number / 2;
+    shift_ = {(width + gap) * column, (height + gap) * (1 - row)};
     const std::string outline = stroke(border_tone, 0.8 * pixel);
     draw_rings({{{0, 0}, {width, 0}, {width, height}, {0, height}}}, outline + fill(free_tone));
     draw_rings(before.boxes, fill(ghost_tone));
