@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
 # Draws what the triangulation is used for besides surfaces: a gasket whose hole moves, an island that
-# is dragged over a border, the ways of discs through a town, and of agents among polygons.
+# is dragged over a border, the ways of discs through a town, of agents among polygons, and of one
+# agent through a room whose boxes move.
 # Builds what that needs; installs missing Debian packages first, fetches the map with npm.
 set -eu
 cd "$(dirname "$0")/.."
@@ -13,7 +14,7 @@ fi
 # A first build leaves the tests out; one that has them keeps them.
 [ -f build/release/CMakeCache.txt ] && tests= || tests=-DLOFT_TESTS=OFF
 cmake --preset release $tests
-cmake --build --preset release -j "$(nproc)" --target loft agents gasket island town
+cmake --build --preset release -j "$(nproc)" --target loft agents gasket island room town
 
 loft=build/release/app/loft
 out=build/samples
@@ -30,6 +31,9 @@ echo "== Ways through a town, for a point and two discs; 40 agents among polygon
 build/release/samples/town $out/town.svg
 build/release/samples/agents $out/agents.svg
 
+echo "== An agent goes through a room whose boxes move, and finds other ways"
+build/release/samples/room $out/room.svg
+
 echo "== Where the countries of the map overlap already, and where they leave gaps"
 $loft coverage $out/world_10m.geojson --gap-width 0.01 -o $out/world_faults.csv > $out/world_faults.txt
 tail -n 1 $out/world_faults.txt
@@ -41,6 +45,7 @@ Done. The pictures are
   $PWD/$out/island.svg
   $PWD/$out/town.svg
   $PWD/$out/agents.svg
+  $PWD/$out/room.svg
 and the table of overlaps and gaps is $PWD/$out/world_faults.csv. Next, try
   $loft overlay --help
   $loft query $out/world_10m.geojson --points points.csv

@@ -1,0 +1,387 @@
+// SPDX-License-Identifier: MIT
+// An agent goes through a room whose boxes drift and turn, and looks for another way whenever one
+// of them has come into its own: room room.svg
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <numbers>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "io/bytes/atomic_file.h"
+#include "io/planar/palette.h"
+#include "io/planar/path_points.h"
+#include "io/planar/svg_frame.h"
+#include "overlay/overlay.h"
+#include "paths/distance.h"
+#include "paths/planner.h"
+
+namespace {
+
+using loft::io::Colour;
+using loft::io::SvgFrame;
+using loft::io::SvgPath;
+using loft::io::to_hex;
+using loft::io::whole_steps;
+using loft::overlay::LayerId;
+using loft::overlay::Overlay;
+using loft::overlay::Point;
+using loft::overlay::Ring;
+using loft::overlay::RingId;
+using loft::paths::distance_between;
+using loft::paths::FreeSpace;
+using loft::paths::Path;
+using loft::paths::PathId;
+using loft::paths::Piece;
+using loft::paths::Planner;
+using loft::paths::Query;
+using loft::paths::Status;
+using loft::paths::Turn;
+
+constexpr double width = 160;
+constexpr double height = 100;
+constexpr Point start{5, 6};
+constexpr Point goal{155, 94};
+constexpr double radius = 1.5;  // of the agent
+constexpr double pace = 0.75;   // a step
+constexpr int most_steps = 2000;
+constexpr int box_count = 12;
+
+/// The same numbers everywhere.
+class Dice {
+ public:
+  double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
+  }
+
+ private:
+  std::mt19937_64 random_{9};
+};
+
+struct Box {
+  Ring shape{};      // around the origin
+  double reach = 0;  // no corner is further from there
+  Point place{};
+  double angle = 0;
+  Point drift{};  // a step
+  double turn = 0;
+};
+
+/// 4 to 8 corners on an ellipse.
+Box random_box(Dice& dice) {
+  const double across = dice.between(10, 15);
+  const double deep = dice.between(7, 10);
+  const int corner_count = static_cast<int>(dice.between(4, 9));
+  Box box{.reach = std::max(across, deep)};
+  for (int i = 0; i < corner_count; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + dice.between(-0.2, 0.2)) / corner_count;
+    box.shape.push_back({across * std::cos(angle), deep * std::sin(angle)});
+  }
+  box.place = {dice.between(box.reach, width - box.reach),
+               dice.between(box.reach, height - box.reach)};
+  box.angle = dice.between(0, 2 * std::numbers::pi);
+  const double way = dice.between(0, 2 * std::numbers::pi);
+  const double speed = dice.between(0.08, 0.22);
+  box.drift = {speed * std::cos(way), speed * std::sin(way)};
+  box.turn = dice.between(-0.012, 0.012);
+  return box;
+}
+
+Ring corners(const Box& box) {
+  Ring ring = box.shape;
+  const double c = std::cos(box.angle);
+  const double s = std::sin(box.angle);
+  for (Point& p : ring) p = {box.place.x + c * p.x - s * p.y, box.place.y + s * p.x + c * p.y};
+  return ring;
+}
+
+bool is_in_room(const Box& box) {
+  return box.place.x >= box.reach && box.place.x <= width - box.reach && box.place.y >= box.reach &&
+         box.place.y <= height - box.reach;
+}
+
+/// Boxes keep off each other as if they were round.
+bool is_apart(const Box& a, const Box& b) {
+  return distance_between(a.place, b.place) >= a.reach + b.reach;
+}
+
+bool keeps_off(const Box& box, Point p, double distance) {
+  return distance_between(box.place, p) >= box.reach + distance;
+}
+
+std::vector<Box> random_boxes(Dice& dice) {
+  std::vector<Box> boxes;
+  while (boxes.size() < box_count) {
+    const Box box = random_box(dice);
+    if (keeps_off(box, start, 3 * radius) && keeps_off(box, goal, 3 * radius) &&
+        std::ranges::all_of(boxes, [&](const Box& other) { return is_apart(box, other); }))
+      boxes.push_back(box);
+  }
+  return boxes;
+}
+
+/// A box drifts and turns; where something is in its way it turns back. It lets the agent pass.
+void drift(std::vector<Box>& boxes, std::size_t which, Point agent) {
+  Box& box = boxes[which];
+  Box moved = box;
+  moved.place = {box.place.x + box.drift.x, box.place.y + box.drift.y};
+  moved.angle += box.turn;
+  bool is_clear = is_in_room(moved) && keeps_off(moved, goal, 2 * radius) &&
+                  keeps_off(moved, agent, 2 * radius);
+  for (std::size_t i = 0; i < boxes.size(); ++i)
+    is_clear = is_clear && (i == which || is_apart(moved, boxes[i]));
+  if (is_clear) {
+    box = moved;
+  } else {
+    box.drift = {-box.drift.x, -box.drift.y};
+    box.turn = -box.turn;
+  }
+}
+
+double angle_of(const Piece& arc) {
+  const Point a{arc.from.x - arc.centre.x, arc.from.y - arc.centre.y};
+  const Point b{arc.to.x - arc.centre.x, arc.to.y - arc.centre.y};
+  return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
+}
+
+double length_of(const Piece& piece) {
+  if (piece.turn == Turn::straight) return distance_between(piece.from, piece.to);
+  return std::abs(angle_of(piece)) * distance_between(piece.centre, piece.from);
+}
+
+/// The point that has that part of a piece behind it.
+Point point_on(const Piece& piece, double part) {
+  const Point a = piece.from;
+  if (piece.turn == Turn::straight)
+    return {a.x + part * (piece.to.x - a.x), a.y + part * (piece.to.y - a.y)};
+  const Point m = piece.centre;
+  const double c = std::cos(part * angle_of(piece));
+  const double s = std::sin(part * angle_of(piece));
+  return {m.x + c * (a.x - m.x) - s * (a.y - m.y), m.y + s * (a.x - m.x) + c * (a.y - m.y)};
+}
+
+/// Takes the first of a way off; returns where it then begins.
+Point walk(Path& way, Point from, double distance) {
+  while (!way.pieces.empty()) {
+    Piece& piece = way.pieces.front();
+    const double length = length_of(piece);
+    if (distance < length) return piece.from = point_on(piece, distance / length);
+    distance -= length;
+    from = piece.to;
+    way.pieces.erase(way.pieces.begin());
+  }
+  return from;
+}
+
+/// What is drawn of a time.
+struct Moment {
+  std::vector<Ring> boxes{};
+  std::vector<Point> walked{};
+  std::vector<Point> left{};
+};
+
+using Clock = std::chrono::steady_clock;
+using Microseconds = std::chrono::duration<double, std::micro>;
+
+/// The room, the boxes and the agent in it.
+class Room {
+ public:
+  Room() {
+    overlay_.insert(frame_, Ring{{0, 0}, {width, 0}, {width, height}, {0, height}});
+    for (const Box& box : boxes_) rings_.push_back(overlay_.insert(things_, corners(box)));
+    space_.follow();
+    space_.keep_gaps();
+    path_ = planner_.keep({.from = start, .to = goal, .radius = radius});
+    way_ = planner_.path(path_);
+  }
+
+  [[nodiscard]] bool is_there() const { return walked_.back() == goal; }
+
+  void step() {
+    for (std::size_t i = 0; i < boxes_.size(); ++i) drift(boxes_, i, walked_.back());
+    const auto begin = Clock::now();
+    move_boxes();
+    space_.follow();
+    const bool is_broken = !planner_.after_edit().empty();
+    edits_took_ += Clock::now() - begin;
+    ++steps_;
+    if (is_broken || way_.status != Status::found) replan();
+    if (way_.status == Status::found) walked_.push_back(walk(way_, walked_.back(), pace));
+  }
+
+  [[nodiscard]] Moment moment() const {
+    Moment now{.walked = walked_, .left = loft::io::points_along(way_, walked_.back())};
+    for (const Box& box : boxes_) now.boxes.push_back(corners(box));
+    return now;
+  }
+
+  void report() const {
+    std::printf("%d steps, another way looked for %d times; %s after %.9f\n", steps_, replans_,
+                is_there() ? "there" : "not there", length());
+    std::printf(
+        "%.1f us to move %d boxes, follow, and know whether the way is broken; %.1f us to "
+        "find another\n",
+        edits_took_.count() / steps_, box_count, replans_took_.count() / replans_);
+  }
+
+ private:
+  void move_boxes() {
+    overlay_.begin_batch();
+    for (std::size_t i = 0; i < boxes_.size(); ++i) overlay_.move(rings_[i], corners(boxes_[i]));
+    overlay_.end_batch();
+  }
+
+  /// From where the agent is. As that is rounded, it may be nearer to a corner than its radius, by
+  /// a hair: it gets as much thinner.
+  void replan() {
+    constexpr double less = 1 - 0x1p-40;
+    const auto begin = Clock::now();
+    const double thinner = less * planner_.query(path_).radius;
+    planner_.change(path_, {.from = walked_.back(), .to = goal, .radius = thinner});
+    way_ = planner_.path(path_);
+    replans_took_ += Clock::now() - begin;
+    ++replans_;
+  }
+
+  [[nodiscard]] double length() const {
+    double sum = 0;
+    for (std::size_t i = 1; i < walked_.size(); ++i)
+      sum += distance_between(walked_[i - 1], walked_[i]);
+    return sum;
+  }
+
+  Dice dice_;
+  std::vector<Box> boxes_ = random_boxes(dice_);
+  Overlay overlay_;
+  LayerId frame_ = overlay_.add_layer("frame");
+  LayerId things_ = overlay_.add_layer("boxes", loft::overlay::FillRule::nonzero);
+  std::vector<RingId> rings_;
+  FreeSpace space_{overlay_, loft::overlay::Expression(frame_) - things_};
+  Planner planner_{space_};
+  PathId path_;
+  Path way_;  // what is left of it
+  std::vector<Point> walked_{start};
+  int steps_ = 0;
+  int replans_ = 0;
+  Microseconds edits_took_{};
+  Microseconds replans_took_{};
+};
+
+/// Four moments, two beside each other; with each, pale, where the boxes were in the one before,
+/// and the way that was meant then.
+class Picture {
+ public:
+  explicit Picture(std::ostream& out) : out_(out) {
+    out_ << frame_.opening() << "<title>A room whose boxes move</title>\n"
+         << "<rect width=\"100%\" height=\"100%\" fill=\"" << to_hex(page_tone) << "\"/>\n";
+  }
+
+  void draw(const Moment& now, const Moment& before, int number) {
+    const int column = number % 2;
+    const int row = number / 2;
+    shift_ = {(width + gap) * column, (height + gap) * (1 - row)};
+    const std::string outline = stroke(border_tone, 0.8 * pixel);
+    draw_rings({{{0, 0}, {width, 0}, {width, height}, {0, height}}}, outline + fill(free_tone));
+    draw_rings(before.boxes, fill(ghost_tone));
+    draw_rings(now.boxes, outline + fill(box_tone));
+    draw_line(before.left, left_tone, 1.2 * pixel, dashes);
+    draw_way(now.walked, walked_tone);
+    draw_way(now.left, left_tone);
+    draw_dot(goal, left_tone, 7 * pixel);
+    draw_dot(start, walked_tone, 7 * pixel);
+    draw_dot(now.walked.back(), left_tone, frame_.length(2 * radius));
+  }
+
+  void finish() { out_ << "</svg>\n"; }
+
+ private:
+  static constexpr double pixel = SvgFrame::steps_per_pixel;
+  static constexpr double gap = 6;  // between two moments
+  static constexpr const char* dashes = "stroke-opacity=\"0.5\" stroke-dasharray=\"300 400\"";
+  static constexpr Colour page_tone{0xff, 0xff, 0xff};
+  static constexpr Colour free_tone{0xfb, 0xfa, 0xf6};
+  static constexpr Colour ghost_tone{0xea, 0xea, 0xe8};
+  static constexpr Colour box_tone{0xc9, 0xcf, 0xd6};
+  static constexpr Colour border_tone{0x7d, 0x87, 0x93};
+  static constexpr Colour walked_tone{0x37, 0x5c, 0xa0};
+  static constexpr Colour left_tone{0xa8, 0x3c, 0x34};
+
+  static std::string fill(Colour tone) { return "fill=\"" + to_hex(tone) + "\" "; }
+  static std::string stroke(Colour tone, double across) {
+    return "stroke=\"" + to_hex(tone) + "\" stroke-width=\"" + whole_steps(across) + "\" ";
+  }
+
+  [[nodiscard]] loft::io::GridPoint place(Point p) const {
+    return frame_({p.x + shift_.x, p.y + shift_.y});
+  }
+
+  void draw_rings(const std::vector<Ring>& rings, const std::string& attributes) {
+    SvgPath path;
+    for (const Ring& ring : rings) {
+      std::vector<loft::io::GridPoint> places;
+      for (const Point p : ring) places.push_back(place(p));
+      path.loop(places);
+    }
+    path.write(out_, attributes);
+  }
+
+  /// The line, and what the agent sweeps.
+  void draw_way(const std::vector<Point>& points, Colour tone) {
+    draw_line(points, tone, frame_.length(2 * radius), "stroke-opacity=\"0.2\"");
+    draw_line(points, tone, 1.8 * pixel);
+  }
+
+  void draw_line(const std::vector<Point>& points, Colour tone, double across,
+                 const std::string& attributes = "") {
+    if (points.size() < 2) return;
+    SvgPath path;
+    path.move(place(points.front()));
+    for (const Point p : points) path.line(place(p));
+    path.write(out_, stroke(tone, across) + attributes);
+  }
+
+  void draw_dot(Point p, Colour tone, double across) {
+    SvgPath path;
+    path.dot(place(p));
+    path.write(out_, stroke(tone, across));
+  }
+
+  std::ostream& out_;
+  SvgFrame frame_{{{0, 0}, {2 * width + gap, 2 * height + gap}}, 900};
+  Point shift_{};
+};
+
+void run(const std::string& out) {
+  Room room;
+  std::vector<Moment> moments{room.moment()};
+  while (!room.is_there() && moments.size() < most_steps) {
+    room.step();
+    moments.push_back(room.moment());
+  }
+  room.report();
+
+  loft::io::AtomicFile file(out);
+  Picture picture(file.stream());
+  std::size_t before = 0;
+  for (int i = 0; i < 4; ++i) {
+    const std::size_t now = (moments.size() - 1) * 3 * static_cast<std::size_t>(i) / 10;
+    picture.draw(moments[now], moments[before], i);
+    before = now;
+  }
+  picture.finish();
+  file.commit();
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    run(argc > 1 ? argv[1] : "room.svg");
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 1;
+  }
+}
