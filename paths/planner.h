@@ -31,6 +31,10 @@ enum class Wish { valid, shortest };
 ///     space.follow();
 ///     for (PathId broken : planner.after_edit()) use(planner.path(broken));
 ///
+/// An agent that has moved on along its path stands at a rounded place, which may be inside an
+/// obstacle by as much: nearest_free() is where it can start from again; a disc starts with a
+/// radius that is smaller by 2^-40.
+///
 /// Not for several threads at once.
 class Planner {
  public:

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "tests/cdt/allocations.h"
 #include "tests/overlay/boxes.h"
 
 namespace loft::paths {
@@ -70,6 +71,28 @@ TEST(ShortestPath, AWorkspaceKnowsASpaceFromAnotherInItsPlace) {
   const Query query{.from = {5, 50}, .to = {80, 50}};
   workspace.find(*space, query, path);
   EXPECT_EQ(path, shortest_path(*space, query));
+}
+
+TEST(ShortestPath, TakesNoMemoryOnceWarm) {
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  const LayerId boxes = overlay.add_layer("boxes");
+  overlay.insert(room, box(0, 0, 100, 100));
+  for (int i = 0; i < 5; ++i) overlay.insert(boxes, box(10 + 18 * i, 20 + 7 * i, 16 + 18 * i, 60));
+  FreeSpace space(overlay, overlay::Expression(room) - boxes);
+  space.keep_gaps();
+  Workspace workspace;
+  Path path;
+  const auto find_all = [&] {
+    for (const double radius : {0.0, 2.0})
+      for (int i = 0; i < 50; ++i)
+        workspace.find(space, {{3, 2.0 * i}, {97, 98 - 1.9 * i}, radius}, path);
+  };
+  find_all();
+  find_all();  // dead ends are known by now
+  const std::size_t before = cdt::allocation_count();
+  find_all();
+  EXPECT_EQ(cdt::allocation_count(), before);
 }
 
 }  // namespace
