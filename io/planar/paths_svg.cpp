@@ -15,7 +15,6 @@ namespace {
 
 using cdt::Point;
 using paths::Path;
-using paths::Piece;
 using paths::Turn;
 
 constexpr Colour blocked_tone{0xc9, 0xcf, 0xd6};
@@ -110,13 +109,13 @@ class PathsSvgWriter {
 
   [[nodiscard]] std::string course_of(const DrawnPath& way) const {
     std::string course = "M" + text_of(way.path.pieces.front().from);
-    for (const Piece& piece : way.path.pieces)
+    for (const paths::Piece& piece : way.path.pieces)
       course += (piece.turn == Turn::straight ? "L" : arc_to(piece)) + text_of(piece.to);
     return course;
   }
 
   /// Less than half a turn, so never the larger of the two arcs of SVG.
-  [[nodiscard]] std::string arc_to(const Piece& piece) const {
+  [[nodiscard]] std::string arc_to(const paths::Piece& piece) const {
     const Point spoke{piece.from.x - piece.centre.x, piece.from.y - piece.centre.y};
     const double radius = std::sqrt(spoke.x * spoke.x + spoke.y * spoke.y);
     const std::string steps = whole_steps(frame_.length(radius));
