@@ -78,7 +78,7 @@ TEST(FreeSpace, ComponentsAreThoseOfAFreshBuildAfterAnyEdits) {
       const double y = number(100);
       return box(x, y, x + 1 + number(30), y + 1 + number(30));
     };
-    for (int i = 0; i < 60; ++i) {
+    for (std::size_t i = 0; i < 60; ++i) {
       const bool is_wall = random() % 2 == 0;
       rings.push_back(is_wall ? overlay.insert(walls, line(), overlay::open)
                               : overlay.insert(boxes, shape()));
@@ -86,7 +86,7 @@ TEST(FreeSpace, ComponentsAreThoseOfAFreshBuildAfterAnyEdits) {
       if (rings.size() > 25) {
         overlay.remove(rings[i % 20]);
         space.follow();
-        rings.erase(rings.begin() + i % 20);
+        rings.erase(rings.begin() + static_cast<std::ptrdiff_t>(i % 20));
       }
       const auto moved = rings[random() % rings.size()];
       overlay.translate(moved, {number(40) - 20, number(40) - 20});
