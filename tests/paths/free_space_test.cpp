@@ -93,7 +93,7 @@ TEST(FreeSpace, ComponentsAreThoseOfAFreshBuildAfterAnyEdits) {
       space.follow();
       // Several holes, far from one another.
       overlay.begin_batch();
-      for (int k = 0; k < i % 4; ++k)
+      for (std::size_t k = 0; k < i % 4; ++k)
         overlay.translate(rings[random() % rings.size()], {number(160) - 80, number(160) - 80});
       overlay.end_batch();
       space.follow();
