@@ -32,7 +32,7 @@ class SvgPath {
   /// Data may be cut here.
   void allow_cut();
 
-  /// A <path> with these attributes for each piece of data.
+  /// A path element with these attributes for each piece of data.
   void write(std::ostream& out, std::string_view attributes) const;
 
  private:
