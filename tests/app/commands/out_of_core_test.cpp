@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/app/program.h"
+#include "tests/sanitized.h"
 
 namespace loft::app {
 namespace {
@@ -43,7 +44,7 @@ TEST(OutOfCore, WritesTheSameBytesAndReport) {
     expect_same(folder, "--merge a.ndjson b.ndjson" + options);
 }
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#ifndef LOFT_SANITIZED
 TEST(OutOfCore, VolumesMayBeLargerThanMemory) {
   const Folder folder;
   const std::string header =

@@ -10,6 +10,8 @@
 #include <string>
 #include <string_view>
 
+#include "tests/sanitized.h"
+
 namespace loft::app::testing {
 
 /// A connection that may send what it likes.
@@ -59,7 +61,7 @@ class Raw {
 };
 
 /// AddressSanitizer keeps what is freed for a while, and shadows all of it.
-#ifdef __SANITIZE_ADDRESS__
+#ifdef LOFT_SANITIZED
 inline constexpr double memory_factor = 8;
 #else
 inline constexpr double memory_factor = 1;
