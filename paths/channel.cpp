@@ -39,33 +39,19 @@ void ChannelSearch::find(const FreeSpace& space, Point from, Point to, Channel& 
   channel.triangles.clear();
   channel.portals.clear();
   expansions_ = 0;
-  channel.status = find_ends(space, from, to);
+  channel.status = ends_.find(space, from, to);
   if (channel.status != Status::found) return;
-  if (const auto both = std::ranges::find_if(starts_, [&](TriangleId t) { return is_goal(t); });
-      both != starts_.end()) {
+  if (const auto both =
+          std::ranges::find_if(ends_.starts, [&](TriangleId t) { return ends_.is_goal(t); });
+      both != ends_.starts.end()) {
     channel.triangles.push_back(*both);
     return;
   }
   begin(space, from, to);
-  for (const TriangleId t : starts_) start(t);
+  for (const TriangleId t : ends_.starts) start(t);
   while (last_ == none) expand(pop());
-  (void)dead_ends_.prepare(space, expansions_);
+  dead_ends_.end(space, expansions_);
   put_together(channel);
-}
-
-/// The triangles at start and goal, of those those that a way leads from and to.
-Status ChannelSearch::find_ends(const FreeSpace& space, Point from, Point to) {
-  space.triangles_at(from, starts_);
-  space.triangles_at(to, goals_);
-  if (starts_.empty()) return Status::start_blocked;
-  if (goals_.empty()) return Status::goal_blocked;
-  const auto leads_on = [&](TriangleId t, const std::vector<TriangleId>& others) {
-    return std::ranges::any_of(
-        others, [&](TriangleId other) { return space.component(t) == space.component(other); });
-  };
-  std::erase_if(starts_, [&](TriangleId t) { return !leads_on(t, goals_); });
-  std::erase_if(goals_, [&](TriangleId t) { return !leads_on(t, starts_); });
-  return starts_.empty() ? Status::unreachable : Status::found;
 }
 
 void ChannelSearch::begin(const FreeSpace& space, Point from, Point to) {
@@ -73,8 +59,7 @@ void ChannelSearch::begin(const FreeSpace& space, Point from, Point to) {
   mesh_ = &space.mesh();
   to_ = to;
   last_ = none;
-  knows_dead_ends_ = dead_ends_.prepare(space, 0);
-  if (knows_dead_ends_) dead_ends_.mark(goals_);
+  dead_ends_.begin(space, ends_.goals);
   turnings_.assign(1, {.place = from});
   entrances_.clear();
   heap_.clear();
@@ -87,26 +72,9 @@ void ChannelSearch::begin(const FreeSpace& space, Point from, Point to) {
   }
 }
 
-bool ChannelSearch::is_goal(TriangleId t) const {
-  return std::ranges::find(goals_, t) != goals_.end();
-}
-
-/// The twin of an edge, if a channel may go there.
-EdgeId ChannelSearch::beyond(EdgeId e) const {
-  const EdgeId entry = space_->beyond(e);
-  if (!knows_dead_ends_ || entry.is_none()) return entry;
-  const bool leads_on =
-      dead_ends_.leads_on(Triangulation::triangle(e), Triangulation::triangle(entry));
-  return leads_on ? entry : EdgeId::none();
-}
-
 /// Over the sides of a triangle that the start is in, but for those that it is on.
 void ChannelSearch::start(TriangleId t) {
-  EdgeId first = Triangulation::edge(t);
-  for (unsigned corner = 1; corner < 3; ++corner) {
-    const EdgeId e = Triangulation::edge(t, corner);
-    if (mesh_->point(mesh_->from(e)) < mesh_->point(mesh_->from(first))) first = e;
-  }
+  const EdgeId first = first_edge(*mesh_, t);
   EdgeId e = first;
   do {
     const Point left = mesh_->point(mesh_->to(e));
@@ -133,7 +101,7 @@ void ChannelSearch::expand(std::uint32_t index) {
   if (best.to_left < turnings_[here.left].length && best.to_right < turnings_[here.right].length)
     return;
   ++expansions_;
-  if (is_goal(Triangulation::triangle(e))) {
+  if (ends_.is_goal(Triangulation::triangle(e))) {
     last_ = index;
     return;
   }

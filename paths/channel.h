@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "paths/dead_ends.h"
+#include "paths/ends.h"
 #include "paths/free_space.h"
 #include "paths/funnel.h"
 #include "paths/path.h"
@@ -69,15 +70,13 @@ class ChannelSearch {
     Chain chain;
   };
 
-  [[nodiscard]] Status find_ends(const FreeSpace& space, Point from, Point to);
-  [[nodiscard]] EdgeId beyond(EdgeId e) const;
+  [[nodiscard]] EdgeId beyond(EdgeId e) const { return dead_ends_.beyond(*space_, e); }
   void begin(const FreeSpace& space, Point from, Point to);
   void start(TriangleId t);
   void expand(std::uint32_t index);
   void enter(const Entrance& entrance);
   void push(Entry entry);
   [[nodiscard]] std::uint32_t pop();
-  [[nodiscard]] bool is_goal(TriangleId t) const;
   [[nodiscard]] std::uint32_t add_turning(Point place, std::uint32_t before);
   [[nodiscard]] LastTurn last_turn(const Entrance& entrance, Point p) const;
   [[nodiscard]] double estimate(const Entrance& entrance) const;
@@ -89,8 +88,7 @@ class ChannelSearch {
   std::size_t expansions_ = 0;
   std::uint32_t last_ = none;  // the entrance to the goal's triangle
   std::uint32_t search_ = 0;
-  std::vector<TriangleId> starts_;
-  std::vector<TriangleId> goals_;
+  Ends ends_;
   std::vector<Turning> turnings_;
   std::vector<Entrance> entrances_;
   Entry next_;                            // the most promising one found since the last pop()
@@ -99,7 +97,6 @@ class ChannelSearch {
   std::vector<std::uint32_t> positions_;  // by triangle: in the channel, while it is put together
   std::vector<EdgeId> edges_;             // through which it is entered
   DeadEnds dead_ends_;
-  bool knows_dead_ends_ = false;
 };
 
 /// A channel in which the way from one point to another is short, by A* over the free triangles

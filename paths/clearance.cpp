@@ -8,17 +8,11 @@
 
 #include "paths/distance.h"
 #include "paths/exact_distance.h"
+#include "paths/expect_followed.h"
 
 namespace loft::paths {
 
 namespace {
-
-[[nodiscard]] double distance_to_side(Point p, Point a, Point b) {
-  const double x = b.x - a.x;
-  const double y = b.y - a.y;
-  if (!has_foot_between(p, a, b)) return std::min(distance_between(a, p), distance_between(b, p));
-  return std::abs(x * (p.y - a.y) - y * (p.x - a.x)) / distance_between(a, b);
-}
 
 /// Calls look(edge) for the sides of triangles that can be seen from a point, from near to far as
 /// long as sides are within what reach() says, some further ones perhaps: those beyond which
@@ -36,7 +30,7 @@ void look_around(const Gaps& gaps, Point p, TriangleId start, std::vector<Triang
       const EdgeId beyond = gaps.beyond(e);
       if (beyond.is_none()) continue;
       const TriangleId next = Triangulation::triangle(beyond);
-      const double away = distance_to_side(p, mesh.point(mesh.from(e)), mesh.point(mesh.to(e)));
+      const double away = distance_to_segment(p, mesh.point(mesh.from(e)), mesh.point(mesh.to(e)));
       if (away > reach() * (1 + 0x1p-40) || std::ranges::find(seen, next) != seen.end()) continue;
       seen.push_back(next);
     }
@@ -52,8 +46,7 @@ void look_around(const Gaps& gaps, Point p, TriangleId start, std::vector<Triang
 }  // namespace
 
 const Gaps& gaps_of(const FreeSpace& space) {
-  if (space.is_stale())
-    throw std::logic_error("paths: the free space has not followed the overlay's last edit");
+  expect_followed(space);
   if (space.gaps() == nullptr)
     throw std::logic_error("paths: a radius above 0 asks for FreeSpace::keep_gaps()");
   return *space.gaps();
@@ -89,7 +82,7 @@ double clearance(const FreeSpace& space, Point p) {
         least = std::min(least, distance_between(a, p));
         if (!mesh.is_constrained(e)) return;
         const auto [from, to] = whole_side(mesh, e);
-        least = std::min(least, distance_to_side(p, from, to));
+        least = std::min(least, distance_to_segment(p, from, to));
       });
   return least;
 }

@@ -6,7 +6,12 @@
 
 namespace loft::paths {
 
-bool DeadEnds::prepare(const FreeSpace& space, std::size_t expansions) {
+void DeadEnds::begin(const FreeSpace& space, std::span<const TriangleId> goals) {
+  prepare(space, 0);
+  if (is_built_) mark(goals);
+}
+
+void DeadEnds::prepare(const FreeSpace& space, std::size_t expansions) {
   if (state_ != space.state()) {
     state_ = space.state();
     spent_ = 0;
@@ -14,7 +19,6 @@ bool DeadEnds::prepare(const FreeSpace& space, std::size_t expansions) {
   }
   spent_ += expansions;
   if (!is_built_ && spent_ > space.mesh().triangle_bound()) build(space);
-  return is_built_;
 }
 
 void DeadEnds::build(const FreeSpace& space) {

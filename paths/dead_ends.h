@@ -18,12 +18,22 @@ namespace loft::paths {
 /// Built once for a state of the space, and worth it after some searches in that.
 class DeadEnds {
  public:
-  /// Takes note of a search of so many steps to come or gone; builds when they were more than it
-  /// costs. Returns whether there is anything for this state of the space.
-  bool prepare(const FreeSpace& space, std::size_t expansions);
-  /// The goals of the next search.
-  void mark(std::span<const TriangleId> goals);
+  /// A search begins, for these goals. Builds if searches before it, in this state of the space,
+  /// took more steps than that costs.
+  void begin(const FreeSpace& space, std::span<const TriangleId> goals);
+  /// It has ended, after so many steps.
+  void end(const FreeSpace& space, std::size_t expansions) { prepare(space, expansions); }
 
+  /// The twin of an edge, if a path may go there: all that can be crossed, until something is
+  /// built.
+  [[nodiscard]] EdgeId beyond(const FreeSpace& space, EdgeId e) const {
+    const EdgeId entry = space.beyond(e);
+    if (!is_built_ || entry.is_none()) return entry;
+    return leads_on(Triangulation::triangle(e), Triangulation::triangle(entry)) ? entry
+                                                                                : EdgeId::none();
+  }
+
+ private:
   /// Whether a path may go on from a triangle to one beside it.
   [[nodiscard]] bool leads_on(TriangleId from, TriangleId to) const {
     const std::uint32_t onward = onward_[to.index()];
@@ -32,11 +42,12 @@ class DeadEnds {
     return marks_[to.index()] == mark_;
   }
 
- private:
   static constexpr std::uint32_t core = 0xffff'ffff;
   static constexpr std::uint32_t root = 0xffff'fffe;
 
+  void prepare(const FreeSpace& space, std::size_t expansions);
   void build(const FreeSpace& space);
+  void mark(std::span<const TriangleId> goals);
   [[nodiscard]] bool has_all_goals(TriangleId t) const {
     return marks_[t.index()] == mark_ && goals_here_[t.index()] == goals_;
   }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "paths/clearance.h"
+#include "paths/ends.h"
 #include "paths/exact_distance.h"
 
 namespace loft::paths {
@@ -127,9 +128,7 @@ void DiscSearch::find_triangles(Point p, std::vector<TriangleId>& found) const {
 }
 
 void DiscSearch::start(TriangleId t) {
-  EdgeId first = Triangulation::edge(t);
-  for (unsigned corner = 1; corner < 3; ++corner)
-    if (from(Triangulation::edge(t, corner)) < from(first)) first = Triangulation::edge(t, corner);
+  const EdgeId first = first_edge(*mesh_, t);
   if (is_goal(t)) {
     const Direction there = tangent(roots_[0].circle, {goal_, 0}).along;
     const std::array corners{corner_beside(there, first),

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "cdt/expansion.h"
+#include "paths/distance.h"
 
 namespace loft::paths {
 

@@ -34,11 +34,7 @@ namespace {
 }
 
 [[nodiscard]] double distance_to(const Side& side, Point p) {
-  const double twice_area = (side.to.x - side.from.x) * (p.y - side.from.y) -
-                            (side.to.y - side.from.y) * (p.x - side.from.x);
-  return has_foot_between(p, side.from, side.to)
-             ? std::abs(twice_area) / distance_between(side.from, side.to)
-             : std::min(distance_between(p, side.from), distance_between(p, side.to));
+  return distance_to_segment(p, side.from, side.to);
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "paths/clearance.h"
 #include "paths/directions.h"
 #include "paths/distance.h"
+#include "paths/expect_followed.h"
 #include "paths/visible.h"
 
 namespace loft::paths {
@@ -40,8 +41,7 @@ struct IsLater {
 }  // namespace
 
 void Workspace::find(const FreeSpace& space, const Query& query, Path& path) {
-  if (space.is_stale())
-    throw std::logic_error("paths: the free space has not followed the overlay's last edit");
+  expect_followed(space);
   if (!(query.radius >= 0 && std::isfinite(query.radius)))
     throw std::invalid_argument("paths: the radius is not 0 or more, and finite");
   if (query.radius > 0) {
@@ -53,24 +53,10 @@ void Workspace::find(const FreeSpace& space, const Query& query, Path& path) {
   path.pieces.clear();
   path.length = std::numeric_limits<double>::infinity();
   expansions_ = 0;
-  space.triangles_at(query.from, starts_);
-  space.triangles_at(query.to, goals_);
-  if (starts_.empty() || goals_.empty()) {
-    path.status = starts_.empty() ? Status::start_blocked : Status::goal_blocked;
-    return;
-  }
-  const auto leads_on = [&](TriangleId t, const std::vector<TriangleId>& others) {
-    return std::ranges::any_of(
-        others, [&](TriangleId other) { return space.component(t) == space.component(other); });
-  };
-  std::erase_if(starts_, [&](TriangleId t) { return !leads_on(t, goals_); });
-  std::erase_if(goals_, [&](TriangleId t) { return !leads_on(t, starts_); });
-  if (starts_.empty()) {
-    path.status = Status::unreachable;
-    return;
-  }
+  path.status = ends_.find(space, query.from, query.to);
+  if (path.status != Status::found) return;
   begin(space, query);
-  for (const TriangleId t : starts_) start(t);
+  for (const TriangleId t : ends_.starts) start(t);
   while (!heap_.empty() && heap_.front().estimate < length_) {
     if (expansions_ >= query.most_expansions) break;
     const Step step = steps_[heap_.front().step];
@@ -81,7 +67,7 @@ void Workspace::find(const FreeSpace& space, const Query& query, Path& path) {
     else
       expand(step.interval);
   }
-  (void)dead_ends_.prepare(space, expansions_);
+  dead_ends_.end(space, expansions_);
   const bool gave_up = !heap_.empty() && heap_.front().estimate < length_;
   path.status = gave_up ? Status::gave_up : Status::found;
   if (gave_up) return;
@@ -104,8 +90,7 @@ void Workspace::begin(const FreeSpace& space, const Query& query) {
   goal_ = query.to;
   length_ = std::numeric_limits<double>::infinity();
   last_ = none;
-  knows_dead_ends_ = dead_ends_.prepare(space, 0);
-  if (knows_dead_ends_) dead_ends_.mark(goals_);
+  dead_ends_.begin(space, ends_.goals);
   roots_.assign(1, {.place = query.from, .corner = {}});
   steps_.clear();
   heap_.clear();
@@ -118,12 +103,8 @@ void Workspace::begin(const FreeSpace& space, const Query& query) {
 
 /// All that is seen of a triangle from a start in it or on its border.
 void Workspace::start(TriangleId t) {
-  if (is_goal(t)) see_goal(0);
-  EdgeId first = Triangulation::edge(t);
-  for (unsigned corner = 1; corner < 3; ++corner) {
-    const EdgeId e = Triangulation::edge(t, corner);
-    if (mesh_->point(mesh_->from(e)) < mesh_->point(mesh_->from(first))) first = e;
-  }
+  if (ends_.is_goal(t)) see_goal(0);
+  const EdgeId first = first_edge(*mesh_, t);
   EdgeId e = first;
   do {
     const Point left = mesh_->point(mesh_->to(e));
@@ -137,8 +118,6 @@ void Workspace::start(TriangleId t) {
     e = Triangulation::next(e);
   } while (e != first);
 }
-
-bool Workspace::is_goal(TriangleId t) const { return std::ranges::find(goals_, t) != goals_.end(); }
 
 void Workspace::see_goal(std::uint32_t root) {
   const double length = roots_[root].length + distance_between(roots_[root].place, goal_);
@@ -161,7 +140,7 @@ void Workspace::expand(Interval interval) {
     const TriangleId t = Triangulation::triangle(e);
     const Root& root = roots_[interval.root];
     if (!root.corner.is_none() && best_[root.corner.index()].length < root.length) return;
-    if (is_goal(t) && side_of(interval, interval.left, goal_) <= 0 &&
+    if (ends_.is_goal(t) && side_of(interval, interval.left, goal_) <= 0 &&
         side_of(interval, interval.right, goal_) >= 0)
       see_goal(interval.root);
 
@@ -252,7 +231,7 @@ void Workspace::expand(const Bend& bend) {
       const int side = orient(from, here, is_left ? right : left);
       if (is_left ? side < 0 : side > 0) return;  // more than half a turn
     }
-    if (is_goal(Triangulation::triangle(e))) {
+    if (ends_.is_goal(Triangulation::triangle(e))) {
       const int side = is_cut ? orient(from, here, goal_) : 0;
       if (is_left ? side >= 0 : side <= 0) see_goal(root);
     }

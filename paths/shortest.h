@@ -7,6 +7,7 @@
 
 #include "paths/dead_ends.h"
 #include "paths/disc_search.h"
+#include "paths/ends.h"
 #include "paths/free_space.h"
 #include "paths/path.h"
 
@@ -70,13 +71,7 @@ class Workspace {
   };
 
   /// The twin of an edge, if a path may go there.
-  [[nodiscard]] EdgeId beyond(EdgeId e) const {
-    const EdgeId entry = space_->beyond(e);
-    if (!knows_dead_ends_ || entry.is_none()) return entry;
-    const bool leads_on =
-        dead_ends_.leads_on(Triangulation::triangle(e), Triangulation::triangle(entry));
-    return leads_on ? entry : EdgeId::none();
-  }
+  [[nodiscard]] EdgeId beyond(EdgeId e) const { return dead_ends_.beyond(*space_, e); }
   void begin(const FreeSpace& space, const Query& query);
   void start(TriangleId t);
   void expand(Interval interval);
@@ -87,7 +82,6 @@ class Workspace {
   void see_goal(std::uint32_t root);
   void put_together(Path& path) const;
   void straighten(const Query& query, Path& path) const;
-  [[nodiscard]] bool is_goal(TriangleId t) const;
   [[nodiscard]] int side_of(const Interval& interval, const Ray& ray, Point p) const;
   [[nodiscard]] double estimate(const Interval& interval) const;
   [[nodiscard]] double through_end(const Interval& interval, const Ray& ray, Point end, Point a,
@@ -100,15 +94,13 @@ class Workspace {
   double length_ = 0;          // of the shortest path known
   std::uint32_t last_ = none;  // and its last root
   std::uint32_t search_ = 0;
-  std::vector<TriangleId> starts_;
-  std::vector<TriangleId> goals_;
+  Ends ends_;
   std::vector<Root> roots_;
   std::vector<Step> steps_;
   std::vector<Entry> heap_;
   std::vector<Best> best_;  // by FreeSpace::corner()
   DeadEnds dead_ends_;
   DiscSearch disc_;
-  bool knows_dead_ends_ = false;
 };
 
 /// The shortest path from one point to another (Polyanya: Cui, Harabor, Grastien, "Compromise-free

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "paths/directions.h"
+
 namespace loft::paths {
 
 using cdt::EdgeId;
@@ -13,29 +15,21 @@ using cdt::Triangulation;
 
 namespace {
 
-struct Vector {
-  double x, y;
-};
-
-[[nodiscard]] Vector between(Point a, Point b) { return {b.x - a.x, b.y - a.y}; }
-[[nodiscard]] double dot_of(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
-[[nodiscard]] double cross_product(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+[[nodiscard]] Direction between(Point a, Point b) { return {b.x - a.x, b.y - a.y}; }
 
 [[nodiscard]] double square_to_segment(Point p, Point a, Point b) {
-  const Vector way = between(a, b);
-  const Vector to_p = between(a, p);
-  const double along = dot_of(way, to_p);
-  const double length = dot_of(way, way);
-  if (along <= 0) return dot_of(to_p, to_p);
-  if (along >= length) return dot_of(between(b, p), between(b, p));
-  const double height = cross_product(way, to_p);
+  const Direction way = between(a, b);
+  const Direction to_p = between(a, p);
+  const double along = dot(way, to_p);
+  const double length = dot(way, way);
+  if (along <= 0) return dot(to_p, to_p);
+  if (along >= length) return dot(between(b, p), between(b, p));
+  const double height = cross(way, to_p);
   return height * height / length;
 }
 
 [[nodiscard]] bool is_crossing(Point a, Point b, Point c, Point d) {
-  const auto side = [](Point p, Point q, Point r) {
-    return cross_product(between(p, q), between(p, r));
-  };
+  const auto side = [](Point p, Point q, Point r) { return cross(between(p, q), between(p, r)); };
   return side(a, b, c) * side(a, b, d) < 0 && side(c, d, a) * side(c, d, b) < 0;
 }
 
