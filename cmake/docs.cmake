@@ -7,7 +7,7 @@ if(NOT DOXYGEN_FOUND)
 endif()
 
 set(loft_headers)
-foreach(layer IN ITEMS cdt overlay paths mesh reconstruct io)
+foreach(layer IN ITEMS cdt overlay paths fields mesh reconstruct io)
   get_target_property(headers loft_${layer} HEADER_SET)
   get_target_property(folder loft_${layer} SOURCE_DIR)
   foreach(header IN LISTS headers)

@@ -31,7 +31,7 @@ Name: loft
 Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
 Requires: @loft_requires@
-Libs: -L${libdir} -lloft-io -lloft-reconstruct -lloft-mesh -lloft-paths -lloft-overlay -lloft-cdt@loft_dicom@
+Libs: -L${libdir} -lloft-io -lloft-reconstruct -lloft-mesh -lloft-fields -lloft-paths -lloft-overlay -lloft-cdt@loft_dicom@
 Cflags: -I${includedir}/loft -ffp-contract=off
 ]])
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/loft.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

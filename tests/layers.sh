@@ -15,6 +15,7 @@ wings='
 cdt           cdt/*
 overlay       overlay/*                      cdt
 paths         paths/*                        overlay
+fields        fields/*                       overlay
 mesh          mesh/*                         cdt
 
 values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,origin,parallel,progress,slice,stack,surface,usable}  mesh
@@ -30,7 +31,7 @@ shape         reconstruct/shape/*            link sew
 live          reconstruct/live/*             shape
 reconstruct   reconstruct/{reconstruct,fair,out_of_core,reconstruction,world}                live
 
-io-values     io/{unit,version}              reconstruct paths
+io-values     io/{unit,version}              reconstruct paths fields
 bytes         io/bytes/*                     io-values
 read-options  io/stacks/{read_options,stack_format}  io-values
 contours      io/contours/*                  bytes read-options
@@ -121,23 +122,23 @@ arrows() {
 }
 
 offenders=$(
-  layers='cdt overlay paths mesh reconstruct io app'
+  layers='cdt overlay paths fields mesh reconstruct io app'
   { find $layers -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.cc'; includes $layers | grep '#include"'; } | arrows
 
   # The world outside: standard headers (neither slash nor dot in their names), and what a layer is
   # there to hide.
   posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
-  allow 'cdt overlay paths mesh' 'none'
+  allow 'cdt overlay paths fields mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
   allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|tiffio\.h|png\.h"
   allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
-  forbid 'cdt overlay paths mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
+  forbid 'cdt overlay paths fields mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'
   forbid io 'chrono>'
 
   # Our own headers are named from the root of the project, so that their layer can be seen.
   includes $layers tests samples bench |
-    grep '#include"' | grep -vE '#include"(cdt|overlay|paths|mesh|reconstruct|io|app|tests|bench)/'
+    grep '#include"' | grep -vE '#include"(cdt|overlay|paths|fields|mesh|reconstruct|io|app|tests|bench)/'
 )
 if [ -n "$offenders" ]; then
   echo "These lines include what their wing must not know (the table is in tests/layers.sh):"

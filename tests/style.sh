@@ -13,7 +13,7 @@ ours() {
   shift
   find "$@" -name node_modules -prune -o -name "$pattern" -print | LC_ALL=C sort
 }
-libraries="cdt overlay paths mesh reconstruct io"
+libraries="cdt overlay paths fields mesh reconstruct io"
 
 # The files that are compiled, in the order of a build: sources, and folders of them joined.
 compiled() {
