@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "overlay/overlay.h"
@@ -67,8 +68,11 @@ class Solid {
   /// The overlay beneath: a layer a shape.
   [[nodiscard]] const Overlay& overlay() const { return overlay_; }
   [[nodiscard]] ResultId result() const { return result_; }
-  /// The layer of a shape.
+  /// The layer of a shape. Those of removed shapes are taken again.
   [[nodiscard]] LayerId layer(NodeId shape) const;
+  /// Results of other expressions over the shapes, beside that of the tree, as Overlay has them.
+  ResultId watch(Expression what) { return overlay_.watch(std::move(what)); }
+  void unwatch(ResultId other) { overlay_.unwatch(other); }
 
  private:
   struct Node {

@@ -48,7 +48,8 @@ io            io/{maps,meshes,points,polylines,scenes,stack,stack_file,stack_wri
 words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words
 server        app/server/*                   capture
-commands      app/commands/*                 server
+app-live      app/live/*                     server
+commands      app/commands/*                 app-live
 options       app/options/*                  commands
 app           app/main                       options
 '

@@ -13,7 +13,7 @@ const { build } = createRequire(join(process.cwd(), 'package.json'))('esbuild');
 const bundle = await build({
   absWorkingDir: folder,
   nodePaths: [join(process.cwd(), 'node_modules')],
-  entryPoints: { viewer: 'src/main.js', style: 'viewer.css' },
+  entryPoints: { viewer: 'src/main.js', style: 'viewer.css', live: 'live/main.js', 'live-style': 'live/live.css' },
   bundle: true,
   minify: true,
   format: 'esm',
@@ -23,13 +23,22 @@ const bundle = await build({
   outdir: 'dist',
 });
 
-const bundled = (end) => bundle.outputFiles.find((file) => file.path.endsWith(end)).contents;
-const files = [
-  ['/', 'text/html; charset=utf-8', await readFile(join(folder, 'index.html'))],
-  ['/viewer.js', 'text/javascript; charset=utf-8', bundled('.js')],
-  ['/viewer.css', 'text/css; charset=utf-8', bundled('.css')],
-  ['/icon.svg', 'image/svg+xml', await readFile(join(folder, 'icon.svg'))],
-];
+const bundled = (name) => bundle.outputFiles.find((file) => file.path.endsWith(`/${name}`)).contents;
+const icon = ['/icon.svg', 'image/svg+xml', await readFile(join(folder, 'icon.svg'))];
+const pages = {
+  assets: [
+    ['/', 'text/html; charset=utf-8', await readFile(join(folder, 'index.html'))],
+    ['/viewer.js', 'text/javascript; charset=utf-8', bundled('viewer.js')],
+    ['/viewer.css', 'text/css; charset=utf-8', bundled('style.css')],
+    icon,
+  ],
+  live_assets: [
+    ['/', 'text/html; charset=utf-8', await readFile(join(folder, 'live/index.html'))],
+    ['/live.js', 'text/javascript; charset=utf-8', bundled('live.js')],
+    ['/live.css', 'text/css; charset=utf-8', bundled('live-style.css')],
+    icon,
+  ],
+};
 
 // Octal escapes end after three digits: what comes next is never taken for one more.
 function escaped(byte) {
@@ -45,9 +54,17 @@ function pieces(bytes) {
   return lines.join(',\n');
 }
 
-const contents = files.map(([, , bytes], i) =>
-  `  static const std::string file${i} = join({\n${pieces(bytes)}});\n`);
-const entries = files.map(([path, type], i) => `Asset{"${path}", "${type}", file${i}}`);
+// The function that returns the files of a page.
+function definition([name, files]) {
+  const contents = files.map(([, , bytes], i) =>
+    `  static const std::string file${i} = join({\n${pieces(bytes)}});\n`);
+  const entries = files.map(([path, type], i) => `Asset{"${path}", "${type}", file${i}}`);
+  return `std::span<const Asset> ${name}() {
+${contents.join('')}  static const std::array files{${entries.join(', ')}};
+  return files;
+}
+`;
+}
 
 await writeFile(out, `// Made by viewer/build.mjs.
 #include <array>
@@ -71,10 +88,6 @@ std::string join(std::initializer_list<std::string_view> pieces) {
 
 }  // namespace
 
-std::span<const Asset> assets() {
-${contents.join('')}  static const std::array files{${entries.join(', ')}};
-  return files;
-}
-
+${Object.entries(pages).map(definition).join('\n')}
 }  // namespace loft::app
 `);

@@ -179,6 +179,16 @@ struct ViewCommand {
   bool quiet = false;
 };
 
+/// `loft live [SCENE]`
+struct LiveCommand {
+  std::optional<std::filesystem::path> scene;
+  std::optional<std::string> tab;  ///< not given: the first, or by what is in the scene
+  std::string host = "127.0.0.1";
+  int port = 8337;
+  std::string token;  ///< for changes from beyond this machine
+  bool quiet = false;
+};
+
 /// `loft session list|export|verify FILE`
 struct SessionCommand {
   enum class What { list, export_slices, verify };
@@ -203,6 +213,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const InfoCommand& command);
 [[nodiscard]] ExitCode run(const StreamCommand& command);
 [[nodiscard]] ExitCode run(const ViewCommand& command);
+[[nodiscard]] ExitCode run(const LiveCommand& command);
 [[nodiscard]] ExitCode run(const SessionCommand& command);
 [[nodiscard]] ExitCode run(const ConvertCommand& command);
 [[nodiscard]] ExitCode run(const SliceCommand& command);

@@ -10,6 +10,7 @@
 
 #include "app/commands/out_of_core.h"
 #include "app/interrupt.h"
+#include "app/live/scenes.h"
 #include "app/options/complaints.h"
 #include "app/options/completion.h"
 #include "app/options/help.h"
@@ -314,6 +315,40 @@ CLI::App* add_view(CLI::App& app, ViewCommand& command) {
   return sub;
 }
 
+/// Adds `loft live`; the command is ready when the line has been parsed.
+CLI::App* add_live(CLI::App& app, LiveCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "live", "Play with shapes, maps and paths in a browser: what is dragged, all else follows");
+  sub->add_option("SCENE", command.scene,
+                  "Scene to open, " + loft::io::scene_extensions() +
+                      "; without it each tab has one of its own");
+  sub->add_option("--tab", command.tab,
+                  "The tab that it is opened in, and that is shown at first (default: lines, points "
+                  "and layers are for paths, polygons with names a map, others shapes)")
+      ->type_name("TAB")
+      ->check(CLI::IsMember(tab_names()));
+  begin_group(*sub, server);
+  sub->add_option("--port", command.port, "Port to serve on (default 8337; 0: any that is free)")
+      ->type_name("PORT")
+      ->check(CLI::Range(0, 65535));
+  sub->add_option("--token", command.token,
+                  "What those who edit from beyond this machine must know (--host; drawn and "
+                  "printed where not given): it is asked for by the page")
+      ->type_name("TOKEN");
+  sub->add_option("--host", command.host,
+                  "Address to listen on (default 127.0.0.1: this machine only)")
+      ->type_name("ADDRESS");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  sub->footer(
+      "Open the address that it prints; Ctrl-C ends it. In the page, ? lists the keys; T shows the\n"
+      "triangles.\n\n"
+      "Examples:\n"
+      "  loft live\n"
+      "  loft live town.geojson --tab paths\n"
+      "  loft live world.geojson --port 0");
+  return sub;
+}
+
 /// Adds `loft session`; the command is ready when the line has been parsed.
 CLI::App* add_session(CLI::App& app, SessionCommand& command) {
   CLI::App* sub = app.add_subcommand("session", "Look into the session of a stream");
@@ -476,6 +511,7 @@ CommandLine::CommandLine()
     return app::run(stream_);
   });
   when(add_view(app_, view_), [this] { return app::run(view_); });
+  when(add_live(app_, live_), [this] { return app::run(live_); });
   when(add_session(app_, session_), [this] { return run_at_once(session_); });
   when(add_triangulate(app_, triangulate_), [this] { return app::run(triangulate_); });
   when(add_overlay(app_, overlay_), [this] { return run_at_once(overlay_); });

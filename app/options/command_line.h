@@ -29,6 +29,7 @@ class CommandLine {
   ReconstructCommand reconstruct_;
   StreamCommand stream_;
   ViewCommand view_;
+  LiveCommand live_;
   SessionCommand session_;
   TriangulateCommand triangulate_;
   OverlayCommand overlay_;

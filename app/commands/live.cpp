@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "app/commands/commands.h"
+#include "app/exit_code.h"
+#include "app/interrupt.h"
+#include "app/live/live_server.h"
+#include "app/live/scenes.h"
+#include "app/terminal.h"
+#include "io/bytes/file.h"
+#include "io/scenes.h"
+
+namespace loft::app {
+
+namespace {
+
+/// The map to open, and the tab that it goes to.
+struct LiveScene {
+  io::Scene scene;
+  std::string tab;
+};
+
+LiveScene opened(const LiveCommand& command) {
+  LiveScene live{io::read_scene(*command.scene), command.tab.value_or("")};
+  std::size_t vertices = 0;
+  for (const io::Feature& feature : live.scene.map.features)
+    for (const overlay::Polygon& polygon : feature.polygons) vertices += polygon.outer.size();
+  if (live.scene.map.features.size() > most_items || vertices > 2'000'000)
+    throw InputError(command.scene->string() +
+                     ": a page shows 20,000 features and 2,000,000 vertices at most");
+  if (live.tab.empty())
+    live.tab = io::extension(*command.scene) == ".map" ? "paths" : tab_for(live.scene.map);
+  return live;
+}
+
+std::vector<Tab> tabs_of(const LiveCommand& command, std::string& first) {
+  LiveScene live{.scene = {}, .tab = command.tab.value_or(tab_names().front())};
+  if (command.scene) live = opened(command);
+  first = live.tab;
+  std::vector<Tab> tabs;
+  for (const std::string& name : tab_names()) {
+    const bool is_opened = command.scene && name == live.tab;
+    tabs.push_back({name, std::make_unique<SharedScene>(
+                              make_scene(name, is_opened ? &live.scene.map : nullptr))});
+  }
+  return tabs;
+}
+
+}  // namespace
+
+ExitCode run(const LiveCommand& command) {
+  catch_interrupts();
+  LiveServer::Setup setup{.host = command.host, .token = command.token, .port = command.port};
+  std::vector<Tab> tabs = tabs_of(command, setup.first);
+  const LiveServer server(setup, std::move(tabs));
+  Terminal terminal(command.quiet);
+  terminal.say("listening on " + server.url());
+  if (!server.token().empty()) terminal.say("edits need the token " + server.token());
+  while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  return ExitCode::ok;
+}
+
+}  // namespace loft::app
