@@ -255,7 +255,7 @@ Json PathsScene::as_json(ItemId id, const Agent& agent) const {
             {"goal", app::as_json(agent.goal)}};
   const bool is_found = agent.way.status == Status::found;
   json["way"] = is_found ? flat(io::points_along(agent.way, agent.from)) : flat({{agent.from}});
-  if (is_found) json["length"] = agent.way.length;
+  json["length"] = is_found ? Json(agent.way.length) : Json(nullptr);
   return json;
 }
 
