@@ -1,62 +1,61 @@
 // SPDX-License-Identifier: MIT
 // The border of a result, of which the program sends what has come and what is gone: edges with the
-// result on their left. Kept as numbers, so that a change costs its own size, and a path its length.
+// result on their left. Kept as loops, each with its path: a change costs the loops that it touches.
+
+const none = undefined;
 
 export class Border {
   #numbers = new Map();  // places, by their coordinates as text
   #places = [];          // x, y, of each number
-  #out = [];             // edges from each place: the places that they lead to
-  #path;
-  #gaps;
+  #out = [];             // edges from each place: { to, loop }
+  #loops = new Set();    // { numbers, area, box, path }
+  #broken = new Set();   // loops that have lost an edge
+  #sorted;
+  #origin = [0, 0];
 
   constructor() { this.area = 0; }
 
-  // All of it anew, or a change.
-  take({ come, gone, area }) {
-    if (!gone) this.#forget();
-    for (let i = 0; gone && i < gone.length; i += 4) {
-      const out = this.#out[this.#number(gone[i], gone[i + 1])];
-      const at = out.indexOf(this.#number(gone[i + 2], gone[i + 3]));
-      if (at >= 0) out.splice(at, 1);
+  // All of it anew, or a change. Returns a box around what is other than before.
+  take({ come, gone, area }, origin) {
+    const old = new Set();
+    if (!gone) {
+      for (const loop of this.#loops) old.add(loop);
+      this.#forget();
+      this.#origin = origin;
     }
-    for (let i = 0; i < come.length; i += 4)
-      this.#out[this.#number(come[i], come[i + 1])].push(this.#number(come[i + 2], come[i + 3]));
+    const touched = new Set();
+    for (let i = 0; gone && i < gone.length; i += 4) this.#removeEdge(gone, i, touched);
+    for (let i = 0; i < come.length; i += 4) this.#addEdge(come, i, touched);
+    for (const place of touched) for (const { loop } of this.#out[place]) if (loop) old.add(loop);
+    for (const loop of this.#broken) old.add(loop);
+    this.#broken.clear();
+    const starts = [...touched];
+    for (const loop of old) if (this.#loops.delete(loop)) starts.push(...this.#unlink(loop));
+    const fresh = starts.flatMap((place) => this.#traceFrom(place));
     this.area = area;
-    if (!gone || come.length + gone.length > 0) this.#path = this.#gaps = undefined;
-    if (this.#places.length > 400_000) this.#tidy();
+    this.#sorted = none;
+    return boxAround([...old, ...fresh]);
   }
 
-  // To be filled, by whatever rule.
-  path(origin) {
-    if (!this.#path) this.#trace(origin);
-    return this.#path;
+  // Loops, the largest first: so those around gaps come after what is around them.
+  get loops() {
+    this.#sorted ??= [...this.#loops].sort((a, b) => Math.abs(b.area) - Math.abs(a.area));
+    return this.#sorted;
   }
-  // Those loops that go round what is not in the result.
-  gaps(origin) {
-    if (!this.#path) this.#trace(origin);
-    return this.#gaps;
-  }
+  // Those that go round what is not in the result.
+  get gaps() { return this.loops.filter(({ area }) => area < 0); }
 
   #forget() {
     this.#numbers.clear();
     this.#places = [];
     this.#out = [];
-  }
-
-  // Places that nothing starts from any more go.
-  #tidy() {
-    const edges = [];
-    this.#out.forEach((out, from) => {
-      for (const to of out)
-        edges.push(this.#places[2 * from], this.#places[2 * from + 1], this.#places[2 * to], this.#places[2 * to + 1]);
-    });
-    this.take({ come: edges, area: this.area });
+    this.#loops.clear();
   }
 
   #number(x, y) {
     const key = `${x},${y}`;
     let number = this.#numbers.get(key);
-    if (number === undefined) {
+    if (number === none) {
       number = this.#out.length;
       this.#numbers.set(key, number);
       this.#places.push(x, y);
@@ -65,48 +64,63 @@ export class Border {
     return number;
   }
 
-  #trace([ox, oy]) {
-    const left = this.#out.map((out) => [...out]);
-    const path = new Path2D();
-    const gaps = new Path2D();
-    let gapArea = 0;
-    let gapCount = 0;
-    for (let start = 0; start < left.length; ++start) {
-      while (left[start].length > 0) {
-        const loop = this.#loop(left, start);
-        const area = this.#areaOf(loop);
-        append(path, loop, this.#places, ox, oy);
-        if (area >= 0) continue;
-        append(gaps, loop, this.#places, ox, oy);
-        gapArea -= area;
-        ++gapCount;
-      }
+  #removeEdge(edges, i, touched) {
+    const from = this.#number(edges[i], edges[i + 1]);
+    const to = this.#number(edges[i + 2], edges[i + 3]);
+    const out = this.#out[from];
+    const at = out.findIndex((edge) => edge.to === to);
+    if (at < 0) return;
+    const [{ loop }] = out.splice(at, 1);
+    touched.add(from).add(to);
+    if (loop) this.#broken.add(loop);
+  }
+  #addEdge(edges, i, touched) {
+    const from = this.#number(edges[i], edges[i + 1]);
+    const to = this.#number(edges[i + 2], edges[i + 3]);
+    this.#out[from].push({ to, loop: none });
+    touched.add(from).add(to);
+  }
+
+  // Its edges belong to no loop any more; where they start.
+  #unlink(loop) {
+    for (const place of loop.numbers)
+      for (const edge of this.#out[place]) if (edge.loop === loop) edge.loop = none;
+    return loop.numbers;
+  }
+
+  #traceFrom(start) {
+    const found = [];
+    for (;;) {
+      const first = this.#out[start].find(({ loop }) => loop === none);
+      if (!first) return found;
+      const loop = this.#trace(start, first);
+      this.#loops.add(loop);
+      found.push(loop);
     }
-    this.#path = path;
-    this.#gaps = { path: gaps, area: gapArea, count: gapCount };
   }
 
   // Where several edges go on, the one furthest to the right: so a loop goes round one gap only.
-  #loop(left, start) {
-    const loop = [start];
-    let at = start;
-    let before;
-    do {
-      const out = left[at];
-      const next = out.length > 1 && before !== undefined ? this.#rightmost(out, before, at) : out.length - 1;
+  #trace(start, first) {
+    const loop = { numbers: [start] };
+    let edge = first;
+    edge.loop = loop;
+    for (let before = start, at = edge.to; at !== start;) {
+      loop.numbers.push(at);
+      const out = this.#out[at].filter((one) => one.loop === none);
+      if (out.length === 0) break;
+      edge = out.length === 1 ? out[0] : this.#rightmost(out, before, at);
+      edge.loop = loop;
       before = at;
-      [at] = out.splice(next, 1);
-      if (at === undefined) break;
-      loop.push(at);
-    } while (at !== start);
-    loop.pop();
+      at = edge.to;
+    }
+    this.#measure(loop);
     return loop;
   }
 
   #rightmost(out, before, at) {
     const back = this.#angle(at, before);
-    const turns = out.map((to) => (this.#angle(at, to) - back + 4 * Math.PI) % (2 * Math.PI));
-    return turns.indexOf(Math.min(...turns));
+    const turns = out.map(({ to }) => (this.#angle(at, to) - back + 4 * Math.PI) % (2 * Math.PI));
+    return out[turns.indexOf(Math.min(...turns))];
   }
 
   #angle(from, to) {
@@ -114,21 +128,40 @@ export class Border {
     return Math.atan2(p[2 * to + 1] - p[2 * from + 1], p[2 * to] - p[2 * from]);
   }
 
-  #areaOf(loop) {
+  #measure(loop) {
     const p = this.#places;
-    const [x0, y0] = [p[2 * loop[0]], p[2 * loop[0] + 1]];
+    const [ox, oy] = this.#origin;
+    const box = [Infinity, Infinity, -Infinity, -Infinity];
+    const path = new Path2D();
+    const last = loop.numbers.at(-1);
+    let [bx, by] = [p[2 * last] - ox, p[2 * last + 1] - oy];
     let twice = 0;
-    for (let i = 0; i < loop.length; ++i) {
-      const a = loop[i];
-      const b = loop[(i + 1) % loop.length];
-      twice += (p[2 * a] - x0) * (p[2 * b + 1] - y0) - (p[2 * b] - x0) * (p[2 * a + 1] - y0);
-    }
-    return twice / 2;
+    loop.numbers.forEach((number, i) => {
+      const [x, y] = [p[2 * number] - ox, p[2 * number + 1] - oy];
+      twice += bx * y - x * by;
+      if (i === 0) path.moveTo(x, y);
+      else path.lineTo(x, y);
+      grow(box, p[2 * number], p[2 * number + 1]);
+      [bx, by] = [x, y];
+    });
+    path.closePath();
+    Object.assign(loop, { area: twice / 2, box, path });
   }
 }
 
-function append(path, loop, places, ox, oy) {
-  path.moveTo(places[2 * loop[0]] - ox, places[2 * loop[0] + 1] - oy);
-  for (let i = 1; i < loop.length; ++i) path.lineTo(places[2 * loop[i]] - ox, places[2 * loop[i] + 1] - oy);
-  path.closePath();
+export function grow(box, x, y) {
+  box[0] = Math.min(box[0], x);
+  box[1] = Math.min(box[1], y);
+  box[2] = Math.max(box[2], x);
+  box[3] = Math.max(box[3], y);
+}
+
+// Nothing where there is nothing.
+export function boxAround(things) {
+  const box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const { box: [left, low, right, high] } of things) {
+    grow(box, left, low);
+    grow(box, right, high);
+  }
+  return box[0] <= box[2] ? box : none;
 }

@@ -21,7 +21,7 @@ let tab;
 // What tabs see of the page.
 const page = {
   link,
-  board: new Board(element('canvas'), draw),
+  board: new Board(element('canvas'), element('front'), { draw, drawFront }),
   send,
   say: (words) => { element('announcement').textContent = words; },
   isShown: (one) => one === tab,
@@ -36,10 +36,15 @@ const triangles = new Triangles(page);
 const tabs = [new Shapes(page), new Atlas(page), new Rooms(page)];
 const waiting = new Map();  // events that are not in the picture yet: when they were asked for
 
-function draw(board, now) {
-  if (!tab.hasBegun) return false;
-  const goesOn = tab.draw(board, now);
+function draw(board) {
+  if (!tab?.hasBegun) return;
+  tab.draw(board);
   triangles.draw(board);
+}
+
+function drawFront(board, now) {
+  if (!tab?.hasBegun) return false;
+  const goesOn = tab.drawFront(board, now);
   page.drawn = tab.event;
   measureDelays();
   return goesOn;
@@ -53,7 +58,7 @@ async function send(edit, key) {
   const event = await link.send(edit, key);
   if (event !== undefined) {
     waiting.set(event, begin);
-    page.board.invalidate();
+    page.board.invalidateFront();
   }
   return event;
 }
@@ -81,7 +86,7 @@ function take(kind, { content, event }) {
   element('canvas').setAttribute('aria-busy', 'false');
   showCost(content);
   triangles.refresh();
-  page.board.invalidate();
+  page.board.invalidateFront();
 }
 
 function showCost({ microseconds: took, made, triangles: count, vertices }) {

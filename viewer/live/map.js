@@ -11,7 +11,6 @@ const rest = 250;        // ms without a change until faults are asked for
 export class Atlas extends Tab {
   #land = new Border();
   #overlaps = new Border();
-  #fills = new Map();  // by owner: the path of its parts that lie still
   #faultTimer;
 
   constructor(page) { super(page, 'map', 'Map'); }
@@ -29,8 +28,8 @@ export class Atlas extends Tab {
     this.#takeResults(change);
   }
   #takeResults({ land, overlaps }) {
-    if (land) this.#land.take(land);
-    if (overlaps) this.#overlaps.take(overlaps);
+    const changed = [this.#land.take(land, this.board.origin), this.#overlaps.take(overlaps, this.board.origin)];
+    for (const box of changed) if (box) this.board.invalidate(box);
     clearTimeout(this.#faultTimer);
     this.#faultTimer = setTimeout(() => this.#showFaults(), rest);
   }
@@ -44,64 +43,39 @@ export class Atlas extends Tab {
   // --- Picture ---
 
   draw(board) {
-    const pen = board.pen;
-    const { origin } = board;
+    const { pen } = board;
+    const gaps = this.#land.gaps.filter(({ box }) => board.isSeen(box));
+    const overlaps = this.#overlaps.loops.filter(({ box }) => board.isSeen(box));
     board.enterPlane();
-    const gaps = this.#land.gaps(origin);
     pen.fillStyle = board.colour('gap');
-    pen.fill(gaps.path, 'evenodd');
-    this.#fillOwners(board);
+    for (const { path } of gaps) pen.fill(path);
+    const parts = [...this.things.seen(board)];
+    for (const part of parts) {
+      pen.fillStyle = this.#colour(board, part.owner);
+      pen.fill(this.things.enter(board, part), 'evenodd');
+    }
+    board.setThinLine('border');
+    for (const part of parts) pen.stroke(this.things.enter(board, part));
     board.enterPlane();
-    pen.lineWidth = board.px(1);
-    pen.lineJoin = 'round';
-    pen.strokeStyle = board.colour('border');
-    pen.stroke(this.things.path(origin));
-    for (const thing of this.things.moving) this.#draw(board, thing);
-    board.enterPlane();
-    pen.lineWidth = board.px(2.5);
-    pen.strokeStyle = board.colour('gap');
-    pen.stroke(gaps.path);
-    const overlaps = this.#overlaps.path(origin);
+    this.#light(board, gaps, 'gap');
     pen.fillStyle = board.colour('overlap');
-    pen.fill(overlaps, 'evenodd');
-    pen.strokeStyle = board.colour('overlap-edge');
-    pen.stroke(overlaps);
+    pen.fill(joined(overlaps), 'evenodd');
+    this.#light(board, overlaps, 'overlap-edge');
+  }
+
+  #light(board, loops, colour) {
+    board.pen.strokeStyle = board.colour(colour);
+    board.pen.lineWidth = board.px(2.5);
+    for (const { path } of loops) board.pen.stroke(path);
+  }
+
+  drawFront(board) {
     const chosen = this.things.get(this.chosen);
     if (!chosen) return;
-    board.enterPlane(chosen.at);
-    pen.strokeStyle = board.colour('accent');
-    pen.lineWidth = board.px(2);
-    pen.stroke(this.things.shape(chosen, origin));
-  }
-
-  #fillOwners(board) {
-    const still = new Map();
-    for (const thing of this.things.values()) {
-      const parts = still.get(thing.owner) ?? [];
-      parts.push(thing);
-      still.set(thing.owner, parts);
-    }
-    const moving = new Set(this.things.moving);
-    for (const [owner, parts] of still) {
-      board.pen.fillStyle = this.#colour(board, owner);
-      for (const part of parts) {
-        if (moving.has(part)) continue;
-        board.enterPlane(part.at);
-        board.pen.fill(this.things.shape(part, board.origin), 'evenodd');
-      }
-    }
-  }
-
-  #draw(board, thing) {
-    board.enterPlane(thing.at);
-    const shape = this.things.shape(thing, board.origin);
-    board.pen.globalAlpha = 0.75;
-    board.pen.fillStyle = this.#colour(board, thing.owner);
-    board.pen.fill(shape, 'evenodd');
-    board.pen.globalAlpha = 1;
-    board.pen.strokeStyle = board.colour('border');
-    board.pen.lineWidth = board.px(1);
-    board.pen.stroke(shape);
+    const path = this.things.enter(board, chosen);
+    board.pen.strokeStyle = board.colour('accent');
+    board.pen.lineWidth = board.px(2);
+    board.pen.stroke(path);
   }
 
   #colour(board, owner) { return `hsl(${owner * golden % 360} ${board.colour('land')})`; }
@@ -152,7 +126,7 @@ export class Atlas extends Tab {
 
   showFigures() {
     this.values.Overlaps.textContent = short(this.#overlaps.area, 10);
-    this.values.Gaps.textContent = short(this.#land.gaps(this.board.origin).area, 10);
+    this.values.Gaps.textContent = short(this.#land.gaps.reduce((sum, { area }) => sum - area, 0), 10);
   }
 
   async #showFaults() {
@@ -173,4 +147,10 @@ export class Atlas extends Tab {
     this.board.view.middle = at;
     this.board.zoom(1);
   }
+}
+
+function joined(loops) {
+  const all = new Path2D();
+  for (const { path } of loops) all.addPath(path);
+  return all;
 }

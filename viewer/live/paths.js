@@ -9,9 +9,6 @@ const channelPause = 120;  // ms between two looks at the channel
 
 export class Rooms extends Tab {
   #agents = new Map();
-  #boxes = new Path2D();
-  #walls = new Path2D();
-  #all;         // the path that these were made with
   #time = 0;    // of the program
   #since = 0;   // of the page, when it was that
   #radius = 0;
@@ -115,57 +112,46 @@ export class Rooms extends Tab {
   // --- Picture ---
 
   draw(board) {
-    const pen = board.pen;
-    const { origin } = board;
-    board.enterPlane([-origin[0], -origin[1]]);
+    const { pen } = board;
+    board.enterPlaneItself();
     const [left, low, right, high] = this.box ?? [0, 0, 0, 0];
     pen.fillStyle = board.colour('floor');
     pen.fillRect(left, low, right - left, high - low);
-    this.#drawChannel(board);
-    board.enterPlane();
+    const seen = [...this.things.seen(board)];
+    const walls = seen.filter(({ isLine }) => isLine);
     pen.fillStyle = board.colour('box');
-    this.#drawItems(board);
-    board.enterPlane([-origin[0], -origin[1]]);
+    board.setThinLine('outline');
+    for (const thing of seen) {
+      if (thing.isLine) continue;
+      const path = this.things.enter(board, thing);
+      pen.fill(path, 'nonzero');
+      pen.stroke(path);
+    }
+    this.#drawWalls(board, walls);
+  }
+
+  #drawWalls(board, walls) {
+    board.pen.strokeStyle = board.colour('wall');
+    board.pen.lineWidth = board.px(4);
+    for (const wall of walls) board.pen.stroke(this.things.enter(board, wall));
+  }
+
+  drawFront(board) {
+    board.enterPlaneItself();
+    this.#drawChannel(board);
+    const { pen } = board;
+    const chosen = this.things.get(this.chosen);
+    if (chosen) {
+      const path = this.things.enter(board, chosen);
+      pen.strokeStyle = board.colour('accent');
+      pen.lineWidth = board.px(chosen.isLine ? 4 : 2);
+      pen.stroke(path);
+      board.enterPlaneItself();
+    }
     this.#drawClearance(board);
     for (const agent of this.#agents.values()) this.#drawAgent(board, agent);
     pen.globalAlpha = 1;
     return this.#agents.size > 0 && this.#pace > 0;
-  }
-
-  #drawItems(board) {
-    const { origin, pen } = board;
-    this.#sort(origin);
-    pen.fill(this.#boxes, 'nonzero');
-    this.#stroke(board, this.#boxes, 'outline', 1.2);
-    this.#stroke(board, this.#walls, 'wall', 4);
-    const chosen = this.things.get(this.chosen);
-    for (const thing of new Set([...this.things.moving, ...(chosen ? [chosen] : [])])) {
-      board.enterPlane(thing.at);
-      const shape = this.things.shape(thing, origin);
-      if (!thing.isLine) pen.fill(shape, 'nonzero');
-      this.#stroke(board, shape, thing.id === this.chosen ? 'accent' : 'outline', thing.isLine ? 4 : 2);
-    }
-  }
-
-  // Boxes and walls that lie still, each in a path.
-  #sort(origin) {
-    const all = this.things.path(origin);
-    if (this.#all === all) return;
-    this.#all = all;
-    this.#boxes = new Path2D();
-    this.#walls = new Path2D();
-    const moving = new Set(this.things.moving);
-    for (const thing of this.things.values()) {
-      if (moving.has(thing)) continue;
-      const path = thing.isLine ? this.#walls : this.#boxes;
-      path.addPath(this.things.shape(thing, origin), new DOMMatrix([1, 0, 0, 1, thing.at[0], thing.at[1]]));
-    }
-  }
-
-  #stroke(board, path, colour, width) {
-    board.pen.strokeStyle = board.colour(colour);
-    board.pen.lineWidth = board.px(width);
-    board.pen.stroke(path);
   }
 
   #drawChannel(board) {
@@ -204,10 +190,11 @@ export class Rooms extends Tab {
     const { pen } = board;
     const { at, next } = this.#place(agent);
     const isChosen = agent.id === this.chosen;
+    const isOne = isChosen || this.#agents.size <= 20;
     const hue = `hsl(${agent.id * 137.508 % 360} ${board.colour('agent')})`;
     pen.strokeStyle = isChosen ? board.colour('accent') : hue;
-    pen.globalAlpha = isChosen || this.#agents.size <= 20 ? 0.9 : 0.35;
-    pen.lineWidth = board.px(isChosen ? 2.5 : 1.4);
+    pen.globalAlpha = isOne ? 0.9 : 0.4;
+    pen.lineWidth = board.px(isChosen ? 2.5 : isOne ? 1.4 : 1 / devicePixelRatio);
     pen.beginPath();
     pen.moveTo(...at);
     for (let i = next; i < agent.lengths.length; ++i) pen.lineTo(agent.way[2 * i], agent.way[2 * i + 1]);
@@ -217,8 +204,8 @@ export class Rooms extends Tab {
     pen.beginPath();
     pen.arc(...at, Math.max(this.#radius, board.px(3.5)), 0, 2 * Math.PI);
     pen.fill();
+    pen.lineWidth = board.px(isOne ? 1.6 : 1 / devicePixelRatio);
     pen.beginPath();
-    pen.lineWidth = board.px(1.6);
     pen.arc(...agent.goal, board.px(isChosen ? 6 : 3), 0, 2 * Math.PI);
     pen.stroke();
   }
@@ -248,7 +235,7 @@ export class Rooms extends Tab {
       const { clearance } = await this.page.link.ask(`clearance?at=${p[0]},${p[1]}`);
       this.#pointer = { at: p, clearance };
       this.page.showHover(`clearance ${short(clearance)}`);
-      this.board.invalidate();
+      this.board.invalidateFront();
     } catch { /* the next move asks again */ }
     this.isAskingHere = false;
     if (this.wanted !== p && this.wanted) this.#askForClearance(this.wanted);
@@ -256,7 +243,7 @@ export class Rooms extends Tab {
   leave() {
     this.wanted = undefined;
     this.#pointer = undefined;
-    this.board.invalidate();
+    this.board.invalidateFront();
   }
 
   // --- Panel ---

@@ -64,7 +64,10 @@ export class Shapes extends Tab {
     this.addThing({ id, rings, at, map });
   }
   #takeResult(content) {
-    if (content.result) this.#result.take(content.result);
+    if (content.result) {
+      const changed = this.#result.take(content.result, this.board.origin);
+      if (changed) this.board.invalidate(changed);
+    }
     if (content.expression === undefined || !this.field) return;
     if (document.activeElement !== this.field) this.field.value = content.expression;
     this.field.classList.toggle('typed', content.is_typed);
@@ -112,12 +115,10 @@ export class Shapes extends Tab {
     const id = this.find(p, near);
     if (id === undefined) return undefined;
     this.choose(id);
-    const shapes = this.#shapesBelow(id);
     const begin = this.#nodes.get(id).at;
-    this.things.setMoving(shapes);
     return {
       move: ([x, y]) => this.#moveNode(id, begin, [x - p[0], y - p[1]]),
-      end: () => this.things.setMoving([]),
+      end: () => {},
     };
   }
 
@@ -128,7 +129,6 @@ export class Shapes extends Tab {
     const [dx, dy] = apply(inverse(above), by);
     node.at = [begin[0] + dx, begin[1] + dy];
     this.#placeBelow(id);
-    this.board.invalidate();
     this.page.send({ do: 'move', id, at: node.at }, `move ${id}`);
   }
   moveBy(id, by) { this.#moveNode(id, this.#nodes.get(id).at, by); }
@@ -156,28 +156,29 @@ export class Shapes extends Tab {
   // --- Picture ---
 
   draw(board) {
-    const pen = board.pen;
+    const { pen } = board;
+    const loops = this.#result.loops.filter(({ box: one }) => board.isSeen(one));
     board.enterPlane();
-    pen.fillStyle = board.colour('result');
-    pen.fill(this.#result.path(board.origin), 'evenodd');
-    pen.lineWidth = board.px(1);
-    pen.strokeStyle = board.colour('outline');
-    pen.stroke(this.things.path(board.origin));
-    for (const thing of this.things.moving) this.#stroke(board, thing, 'outline', 1);
-    board.enterPlane();
-    pen.lineWidth = board.px(2);
-    pen.lineJoin = 'round';
-    pen.strokeStyle = board.colour('result-edge');
-    pen.stroke(this.#result.path(board.origin));
-    if (this.chosen !== undefined)
-      for (const id of this.#shapesBelow(this.chosen)) this.#stroke(board, this.things.get(id), 'accent', 2);
+    for (const { path, area } of loops) {
+      pen.fillStyle = board.colour(area > 0 ? 'result' : 'stage');
+      pen.fill(path);
+    }
+    board.setThinLine('outline');
+    for (const thing of this.things.seen(board)) pen.stroke(this.things.enter(board, thing));
+    // Two of a pixel each.
+    board.setThinLine('result-edge');
+    for (const [dx, dy] of [[0, 0], [0.6, 0.6]]) {
+      board.enterPlane([0, 0], dx, dy);
+      for (const { path } of loops) pen.stroke(path);
+    }
   }
 
-  #stroke(board, thing, colour, width) {
-    board.enterPlane(this.things.offset(thing, board.origin));
-    board.pen.lineWidth = board.px(width);
-    board.pen.strokeStyle = board.colour(colour);
-    board.pen.stroke(this.things.shape(thing, board.origin));
+  drawFront(board) {
+    if (this.chosen === undefined) return;
+    board.pen.strokeStyle = board.colour('accent');
+    board.pen.lineWidth = board.px(2);
+    for (const id of this.#shapesBelow(this.chosen))
+      board.pen.stroke(this.things.enter(board, this.things.get(id)));
   }
 
   hover(p, near) { return this.nameOf(super.find(p, near)); }

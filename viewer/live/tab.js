@@ -37,6 +37,7 @@ export class Tab {
       if (isFirst && content.box) this.board.setBox(content.box);
       this.hasBegun = true;
       this.reset(content);
+      this.board.invalidate();
       if (isFirst) this.page.showPanel();
       if (this.chosen !== undefined && !this.has(this.chosen)) this.choose(undefined);
     } else {
@@ -50,16 +51,26 @@ export class Tab {
   addThing(thing) {
     this.#known.set(thing.id, { at: thing.at, map: thing.map });
     this.things.add(thing);
+    this.board.invalidate(this.things.boxOf(thing));
   }
   removeThing(id) {
     this.#known.delete(id);
+    if (this.things.has(id)) this.board.invalidate(this.things.boxOf(this.things.get(id)));
     this.things.remove(id);
     if (this.chosen === id) this.choose(undefined);
   }
   // Where a thing is now; `map` as in things.js.
   placeThing(id, at, map) {
     this.#known.set(id, { at, map });
-    if (!this.#pending.has(id)) this.things.place(id, at, map);
+    if (!this.#pending.has(id)) this.#show(id, at, map);
+  }
+  // Draws what was there and what is there.
+  #show(id, at, map) {
+    const thing = this.things.get(id);
+    if (!thing) return;
+    this.board.invalidate(this.things.boxOf(thing));
+    this.things.place(id, at, map);
+    this.board.invalidate(this.things.boxOf(thing));
   }
 
   // --- What is done with things ---
@@ -74,10 +85,9 @@ export class Tab {
     if (id === undefined) return undefined;
     this.choose(id);
     const begin = this.things.get(id).at;
-    this.things.setMoving([id]);
     return {
       move: ([x, y]) => this.move(id, [begin[0] + x - p[0], begin[1] + y - p[1]]),
-      end: () => this.things.setMoving([]),
+      end: () => {},
     };
   }
 
@@ -85,8 +95,7 @@ export class Tab {
     const number = ++this.#serial;
     this.#pending.set(id, number);
     this.#settling.delete(id);
-    this.things.place(id, at);
-    this.board.invalidate();
+    this.#show(id, at);
     this.page.send({ do: 'move', id, at }, `move ${id}`).then((event) => {
       if (this.#pending.get(id) !== number) return;
       if (event === undefined || event <= this.event) this.#settle(id);
@@ -98,8 +107,7 @@ export class Tab {
     this.#settling.delete(id);
     this.#pending.delete(id);
     const known = this.#known.get(id);
-    if (known) this.things.place(id, known.at, known.map);
-    this.board.invalidate();
+    if (known) this.#show(id, known.at, known.map);
   }
 
   moveBy(id, [dx, dy]) {
@@ -110,7 +118,7 @@ export class Tab {
   choose(id) {
     this.chosen = id;
     this.showChosen();
-    this.board.invalidate();
+    this.board.invalidateFront();
   }
 
   // The next thing, or the one before.
@@ -135,7 +143,8 @@ export class Tab {
   // --- For tabs to say ---
   reset() {}
   change() {}
-  draw() {}          // true where it is to be drawn again in the next frame
+  draw() {}          // the ground
+  drawFront() {}     // what is before it; true where it is to be drawn again in the next frame
   showFigures() {}
   showChosen() {}
   hover() {}         // of a place, or nothing; words

@@ -1,24 +1,18 @@
 // SPDX-License-Identifier: MIT
-// Things with rings that lie somewhere: found under the pointer, drawn all at once. What is being
-// moved is drawn by itself, so that the path of all others stays as it is.
+// Things with rings that lie somewhere: found under the pointer, each with its path.
+
+import { grow } from './border.js';
 
 // Rings are x, y, x, y, ...; `at` is how far they are from where they were given. `map`, where there is
-// one, is [xx, xy, yx, yy]: it turns them before.
-// With `isLocal` rings are around a place of their own, not where they are in the plane.
+// one, is [xx, xy, yx, yy]: it turns them before. With `isLocal` rings are around a place of their own,
+// not where they are in the plane.
 export class Things {
   #things = new Map();
-  #path;
-  #pathWithout = new Set();
-  #moving = new Set();
   #isLocal;
 
   constructor(isLocal = false) { this.#isLocal = isLocal; }
 
-  clear() {
-    this.#things.clear();
-    this.#path = undefined;
-    this.#moving.clear();
-  }
+  clear() { this.#things.clear(); }
 
   get size() { return this.#things.size; }
   get ids() { return [...this.#things.keys()]; }
@@ -28,55 +22,34 @@ export class Things {
 
   add(thing) {
     thing.rings = thing.rings.map((ring) => Float64Array.from(ring));
-    thing.box = boxOf(thing);
-    thing.shape = undefined;
+    forgetShape(thing);
     this.#things.set(thing.id, thing);
-    if (!this.#pathWithout.has(thing.id)) this.#path = undefined;
   }
-  remove(id) {
-    this.#things.delete(id);
-    this.#path = undefined;
-  }
+  remove(id) { this.#things.delete(id); }
 
   place(id, at, map) {
     const thing = this.#things.get(id);
     if (!thing) return;
     thing.at = at;
-    if (map) {
-      thing.map = map;
-      thing.shape = undefined;
-      thing.box = boxOf(thing);
-    }
-    if (!this.#pathWithout.has(id)) this.#path = undefined;
+    if (!map || thing.map?.every((value, i) => value === map[i])) return;
+    thing.map = map;
+    forgetShape(thing);
   }
 
-  // From now on these are drawn by themselves; with none, all at once again.
-  setMoving(ids) {
-    this.#moving = new Set(ids);
-    for (const id of ids) if (!this.#pathWithout.has(id)) this.#path = undefined;
-    if (ids.length === 0 && this.#pathWithout.size > 0) this.#path = undefined;
-  }
-  get moving() { return [...this.#moving].map((id) => this.#things.get(id)).filter(Boolean); }
+  // Where it is in the plane.
+  boxOf({ box, at: [x, y] }) { return [box[0] + x, box[1] + y, box[2] + x, box[3] + y]; }
 
-  // Of one thing, to be drawn at its place.
-  shape(thing, origin) {
+  // What is to be drawn, where a board has entered the plane for it.
+  enter(board, thing) {
+    const { origin } = board;
     thing.shape ??= pathOf(thing, this.#isLocal ? [0, 0] : origin);
+    board.enterPlane(this.#isLocal ? [thing.at[0] - origin[0], thing.at[1] - origin[1]] : thing.at);
     return thing.shape;
   }
-  // Where it is drawn, from the origin.
-  offset({ at }, origin) { return this.#isLocal ? [at[0] - origin[0], at[1] - origin[1]] : at; }
 
-  // All but those that are moving, relative to the origin.
-  path(origin) {
-    if (this.#path) return this.#path;
-    this.#pathWithout = new Set(this.#moving);
-    this.#path = new Path2D();
-    for (const thing of this.#things.values()) {
-      if (this.#pathWithout.has(thing.id)) continue;
-      const [x, y] = this.offset(thing, origin);
-      this.#path.addPath(this.shape(thing, origin), new DOMMatrix([1, 0, 0, 1, x, y]));
-    }
-    return this.#path;
+  // Those that are seen.
+  * seen(board) {
+    for (const thing of this.#things.values()) if (board.isSeen(this.boxOf(thing))) yield thing;
   }
 
   // The smallest thing at a place, or near to it where it is a line.
@@ -94,26 +67,16 @@ export class Things {
   }
 }
 
-export function mapped(thing, x, y) {
+function forgetShape(thing) {
+  thing.shape = undefined;
+  thing.box = [Infinity, Infinity, -Infinity, -Infinity];
+  for (const ring of thing.rings)
+    for (let i = 0; i < ring.length; i += 2) grow(thing.box, ...mapped(thing, ring[i], ring[i + 1]));
+}
+
+function mapped(thing, x, y) {
   const m = thing.map;
   return m ? [m[0] * x + m[1] * y, m[2] * x + m[3] * y] : [x, y];
-}
-
-function visit(thing, see) {
-  thing.rings.forEach((ring, number) => {
-    for (let i = 0; i < ring.length; i += 2) see(mapped(thing, ring[i], ring[i + 1]), i, number);
-  });
-}
-
-function boxOf(thing) {
-  const box = [Infinity, Infinity, -Infinity, -Infinity];
-  visit(thing, ([x, y]) => {
-    box[0] = Math.min(box[0], x);
-    box[1] = Math.min(box[1], y);
-    box[2] = Math.max(box[2], x);
-    box[3] = Math.max(box[3], y);
-  });
-  return box;
 }
 
 function pathOf(thing, [ox, oy]) {

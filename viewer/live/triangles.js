@@ -39,8 +39,7 @@ export class Triangles {
   draw(board) {
     if (!this.isShown || !this.#path) return;
     board.enterPlane();
-    board.pen.lineWidth = board.px(0.7);
-    board.pen.strokeStyle = board.colour('mesh');
+    board.setThinLine('mesh');
     board.pen.stroke(this.#path);
   }
 }
