@@ -19,7 +19,8 @@ class ClassTable {
 
   /// The number of a vector. Cost: O(signs log classes).
   [[nodiscard]] std::uint32_t number(std::span<const Sign> signs);
-  /// The number of what differs from another one in one sign. Cost: constant but for the first time.
+  /// The number of what differs from another one in one sign. Cost: constant but for the first
+  /// time.
   [[nodiscard]] std::uint32_t with(std::uint32_t number, std::size_t place, Sign sign);
 
   [[nodiscard]] std::span<const Sign> signs(std::uint32_t number) const {

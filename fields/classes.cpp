@@ -118,8 +118,7 @@ SeparatorId Classes::insert_separator(std::span<const Point> points) {
   kept.vertices = place(points);
   grow();
   find_standings({.gone = {}, .come = {&kept.line, kept.vertices, {0, kept.line.pieces().size()}}});
-  for (const VertexId v : beside_.vertices())
-    kept.standings[v.index()] = differences_[v.index()];
+  for (const VertexId v : beside_.vertices()) kept.standings[v.index()] = differences_[v.index()];
   classify_all();
   return id;
 }
@@ -151,8 +150,9 @@ void Classes::move(SeparatorId id, std::span<const Point> points) {
   grow();
   find_standings({.gone = {&kept.line, kept.vertices, own_pieces(kept.line, line)},
                   .come = {&line, vertices, own_pieces(line, kept.line)}});
-  const auto number = static_cast<std::size_t>(std::ranges::count_if(
-      separators_.begin(), separators_.begin() + id.index(), [](const auto& one) { return !!one; }));
+  const auto number = static_cast<std::size_t>(
+      std::ranges::count_if(separators_.begin(), separators_.begin() + id.index(),
+                            [](const auto& one) { return !!one; }));
   for (const VertexId v : beside_.vertices()) {
     if (first_here_[v.index()].is_none()) continue;
     Standing& standing = kept.standings[v.index()];

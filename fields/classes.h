@@ -172,9 +172,9 @@ class Classes {
 
   cdt::Triangulation mesh_;
   std::vector<std::optional<Kept>> separators_;
-  std::vector<double> values_;         // by point
-  std::vector<PointId> next_here_;     // by point: another one at the same place
-  std::vector<PointId> first_here_;    // by vertex
+  std::vector<double> values_;           // by point
+  std::vector<PointId> next_here_;       // by point: another one at the same place
+  std::vector<PointId> first_here_;      // by vertex
   std::vector<std::uint32_t> class_of_;  // by vertex that has a point
   ClassTable table_;
   std::vector<PointId> changed_;

@@ -72,9 +72,10 @@ void check_separator(std::span<const Point> points) {
                                 std::to_string(points.size()));
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!cdt::Triangulation::is_usable(points[i]))
-      throw std::invalid_argument("separator: point " + std::to_string(i) +
-                                  " has a coordinate that is not usable: 0, or of magnitude 1e-50 to "
-                                  "1e75");
+      throw std::invalid_argument(
+          "separator: point " + std::to_string(i) +
+          " has a coordinate that is not usable: 0, or of magnitude 1e-50 to "
+          "1e75");
     if (i > 0 && points[i] == points[i - 1])
       throw std::invalid_argument("separator: point " + std::to_string(i) +
                                   " repeats the one before it");

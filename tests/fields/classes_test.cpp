@@ -19,8 +19,8 @@ namespace loft::fields {
 namespace {
 
 using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using testing::Ground;
+using ::testing::HasSubstr;
 
 using Signs = std::vector<Sign>;
 constexpr Sign left = Sign::left;

@@ -32,8 +32,8 @@ class SlowSeparator {
     double way = first_end.angle - last_end.angle;
     if (way < -same) way += 2 * half_turn;
     for (double angle = 0.1; angle < way; angle += 0.1)
-      line_.push_back({radius * std::cos(last_end.angle + angle),
-                       radius * std::sin(last_end.angle + angle)});
+      line_.push_back(
+          {radius * std::cos(last_end.angle + angle), radius * std::sin(last_end.angle + angle)});
   }
 
   [[nodiscard]] Sign sign(Point p) const {
@@ -93,8 +93,7 @@ bool has_ends_on_one_another(const std::vector<Point>& points) {
   const Point a{points[0].x - points[1].x, points[0].y - points[1].y};
   const Point b{points[last].x - points[last - 1].x, points[last].y - points[last - 1].y};
   const Point between{points[last].x - points[0].x, points[last].y - points[0].y};
-  return a.x * b.y == a.y * b.x && a.x * b.x + a.y * b.y > 0 &&
-         a.x * between.y == a.y * between.x;
+  return a.x * b.y == a.y * b.x && a.x * b.x + a.y * b.y > 0 && a.x * between.y == a.y * between.x;
 }
 
 std::vector<Point> places() {

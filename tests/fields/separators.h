@@ -13,10 +13,10 @@ namespace loft::fields::testing {
 
 /// Where random points are.
 enum class Ground {
-  grid,       ///< integers: much is on one line, or at one place
-  plane,      ///< anywhere between -1 and 1
-  far_away,   ///< the same, far from the origin
-  one_line,   ///< all on one line
+  grid,      ///< integers: much is on one line, or at one place
+  plane,     ///< anywhere between -1 and 1
+  far_away,  ///< the same, far from the origin
+  one_line,  ///< all on one line
 };
 inline constexpr std::array grounds{Ground::grid, Ground::plane, Ground::far_away,
                                     Ground::one_line};
