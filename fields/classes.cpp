@@ -117,7 +117,8 @@ SeparatorId Classes::insert_separator(std::span<const Point> points) {
   Kept& kept = separators_[id.index()].emplace(Kept{std::move(line), {}, {}});
   kept.vertices = place(points);
   grow();
-  find_standings({.gone = {}, .come = {&kept.line, kept.vertices, {0, kept.line.pieces().size()}}});
+  find_standings(
+      {.gone = {}, .come = {{&kept.line, {0, kept.line.pieces().size()}}, kept.vertices}});
   for (const VertexId v : beside_.vertices()) kept.standings[v.index()] = differences_[v.index()];
   classify_all();
   return id;
@@ -148,8 +149,8 @@ void Classes::move(SeparatorId id, std::span<const Point> points) {
   vertices.insert(vertices.end(), kept.vertices.end() - static_cast<std::ptrdiff_t>(last),
                   kept.vertices.end());
   grow();
-  find_standings({.gone = {&kept.line, kept.vertices, own_pieces(kept.line, line)},
-                  .come = {&line, vertices, own_pieces(line, kept.line)}});
+  find_standings({.gone = {{&kept.line, own_pieces(kept.line, line)}, kept.vertices},
+                  .come = {{&line, own_pieces(line, kept.line)}, vertices}});
   const auto number = static_cast<std::size_t>(
       std::ranges::count_if(separators_.begin(), separators_.begin() + id.index(),
                             [](const auto& one) { return !!one; }));
@@ -203,28 +204,13 @@ void Classes::take_away(std::span<const VertexId> vertices) {
   for (const VertexId v : vertices) mesh_.remove(v);
 }
 
-/// What a move adds to the standing of a place.
-Standing Classes::difference(const Move& move, Point p) {
-  Standing sum;
-  const auto pieces = [](const Half& half) {
-    return half.line->pieces().subspan(half.own.first, half.own.last - half.own.first);
-  };
-  if (move.gone.line != nullptr) {
-    sum.winding -= move.gone.line->closing(p);
-    for (const SeparatorPiece& piece : pieces(move.gone)) sum -= piece.standing(p);
-  }
-  sum.winding += move.come.line->closing(p);
-  for (const SeparatorPiece& piece : pieces(move.come)) sum += piece.standing(p);
-  return sum;
-}
-
 /// The vertices beside all that is gone and has come; all there are where these have no triangle.
 void Classes::find_beside(const Move& move) {
   beside_.begin(mesh_);
   bool is_flat = false;
   for (const Half& half : {move.gone, move.come})
-    for (std::size_t i = half.own.first; i < half.own.last; ++i)
-      is_flat |= !beside_.add(half.line->pieces()[i], half.vertices[i == 0 ? 0 : i - 1]);
+    for (std::size_t i = half.some.own.first; i < half.some.own.last; ++i)
+      is_flat |= !beside_.add(half.some.line->pieces()[i], half.vertices[i == 0 ? 0 : i - 1]);
   if (!is_flat) return;
   for (std::uint32_t i = 1; i < mesh_.vertex_bound(); ++i)
     if (mesh_.is_vertex(VertexId(i))) beside_.add(VertexId(i));
@@ -234,8 +220,8 @@ void Classes::find_beside(const Move& move) {
 /// which no piece parts from one that it winds around.
 void Classes::find_standings(const Move& move) {
   find_beside(move);
-  for (const VertexId v : beside_.vertices())
-    differences_[v.index()] = difference(move, mesh_.point(v));
+  const StandingChange change(move.gone.some, move.come.some);
+  for (const VertexId v : beside_.vertices()) differences_[v.index()] = change.at(mesh_.point(v));
   for (std::size_t i = 0; i < beside_.vertices().size(); ++i) {
     const VertexId v = beside_.vertices()[i];
     const std::int32_t winding = differences_[v.index()].winding;

@@ -11,6 +11,7 @@
 #include "fields/beside.h"
 #include "fields/class_table.h"
 #include "fields/separator.h"
+#include "fields/standing_change.h"
 #include "overlay/polygon.h"
 
 namespace loft::fields {
@@ -127,9 +128,9 @@ class Classes {
   [[nodiscard]] std::vector<PointId> points_with(std::span<const Sign> signs) const;
 
   /// What a box falls into, each face with its signs, sorted by their outlines' smallest points.
-  /// Where separators leave for infinity and where they cross is rounded. Precondition: the box is
-  /// not empty and has usable corners, between which and 1e75 there is room for a hundred times as
-  /// much. Cost: that of an overlay of all separators.
+  /// Where separators leave for infinity and where they cross is rounded. Precondition: the box, or
+  /// what is between the separators' points, is 1e-30 wide or high, and nothing is beyond 1e70.
+  /// Cost: that of an overlay of all separators.
   [[nodiscard]] std::vector<ClassFace> faces(const cdt::Box& box) const;
 
   /// The points, and those of the separators.
@@ -144,11 +145,10 @@ class Classes {
     std::vector<VertexId> vertices;   // of its points
     std::vector<Standing> standings;  // by vertex: of those that have a point
   };
-  /// What is gone of a separator and what has come: pieces, and the vertices of its points.
+  /// What is gone of a separator, or has come, and the vertices of all its points.
   struct Half {
-    const Separator* line = nullptr;
+    PiecesOf some = {};
     std::span<const VertexId> vertices = {};
-    OwnPieces own = {};
   };
   struct Move {
     Half gone;
@@ -164,7 +164,6 @@ class Classes {
   void sort_changed();
   [[nodiscard]] std::vector<VertexId> place(std::span<const Point> points);
   void take_away(std::span<const VertexId> vertices);
-  [[nodiscard]] static Standing difference(const Move& move, Point p);
   void find_beside(const Move& move);
   void find_standings(const Move& move);
   void change_sign(VertexId v, std::size_t place, Sign sign);

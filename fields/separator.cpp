@@ -68,17 +68,16 @@ Heights heights_at(const SeparatorPiece& piece, Point p) {
 
 void check_separator(std::span<const Point> points) {
   if (points.size() < 2)
-    throw std::invalid_argument("separator: it needs two points and has " +
-                                std::to_string(points.size()));
+    throw std::invalid_argument("the separator has " + std::to_string(points.size()) +
+                                (points.size() == 1 ? " point" : " points") + " and needs two");
   for (std::size_t i = 0; i < points.size(); ++i) {
+    const std::string name = "point " + std::to_string(i) + " of the separator ";
     if (!cdt::Triangulation::is_usable(points[i]))
-      throw std::invalid_argument(
-          "separator: point " + std::to_string(i) +
-          " has a coordinate that is not usable: 0, or of magnitude 1e-50 to "
-          "1e75");
+      throw std::invalid_argument(name +
+                                  "has a coordinate that is not usable: it must be 0, or of "
+                                  "magnitude 1e-50 to 1e75");
     if (i > 0 && points[i] == points[i - 1])
-      throw std::invalid_argument("separator: point " + std::to_string(i) +
-                                  " repeats the one before it");
+      throw std::invalid_argument(name + "repeats the one before it");
   }
 }
 

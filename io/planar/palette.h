@@ -19,6 +19,9 @@ struct Colour {
 /// As SVG and CSS have it: `#e9f1f6`.
 [[nodiscard]] std::string to_hex(Colour colour);
 
+/// What is a share of the way, 0 to 1, from one colour to another.
+[[nodiscard]] Colour mixed(Colour from, Colour to, double share);
+
 /// Calm hues, told apart by number.
 constexpr std::size_t hue_count = 8;
 

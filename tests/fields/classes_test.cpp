@@ -142,7 +142,7 @@ class Editor {
       line = testing::random_line(random_, ground_);
     else if (what == 1 && line.size() > 2)
       line.erase(at);
-    else if (what == 2 && line.size() < 9)
+    else if (what == 2 && line.size() < 60)
       line.insert(at, p);
     else
       *at = p;
@@ -303,9 +303,14 @@ TEST(Classes, RefuseWhatCannotBeAndStayAsTheyAre) {
   const Point unusable{1e99, 0};
   EXPECT_THAT(refused([&] { classes.insert_separator(one); }), HasSubstr("has 1"));
   EXPECT_THAT(refused([&] { classes.move(line, one); }), HasSubstr("has 1"));
-  EXPECT_THAT(refused([&] { classes.insert_separator(repeated); }), HasSubstr("point 2 repeats"));
-  EXPECT_THAT(refused([&] { classes.move(line, repeated); }), HasSubstr("point 2 repeats"));
-  EXPECT_THAT(refused([&] { classes.translate(line, {1e30, 0}); }), HasSubstr("point 1 repeats"));
+  EXPECT_THAT(refused([&] { classes.insert_separator(repeated); }),
+              HasSubstr("point 2 of the separator repeats"));
+  EXPECT_THAT(refused([&] { classes.move(line, repeated); }),
+              HasSubstr("point 2 of the separator repeats"));
+  EXPECT_THAT(refused([&] {
+                classes.translate(line, {1e30, 0});
+              }),
+              HasSubstr("point 1 of the separator repeats"));
   EXPECT_THAT(refused([&] { classes.translate(line, unusable); }), HasSubstr("not usable"));
   EXPECT_THAT(refused([&] { classes.move(SeparatorId(5), repeated); }), HasSubstr("separator 5"));
   EXPECT_THAT(refused([&] { classes.remove(SeparatorId(5)); }), HasSubstr("separator 5"));

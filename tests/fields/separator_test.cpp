@@ -183,11 +183,14 @@ std::string complaint(const std::vector<Point>& points) {
 
 TEST(Separator, RefusesWhatHasNoDirection) {
   using ::testing::HasSubstr;
-  EXPECT_THAT(complaint({}), HasSubstr("needs two points and has 0"));
-  EXPECT_THAT(complaint({{1, 2}}), HasSubstr("needs two points and has 1"));
-  EXPECT_THAT(complaint({{1, 2}, {3, 4}, {3, 4}}), HasSubstr("point 2 repeats the one before"));
-  EXPECT_THAT(complaint({{1, 2}, {3, std::nan("")}}), HasSubstr("point 1 has a coordinate"));
-  EXPECT_THAT(complaint({{1, 1e80}, {3, 4}}), HasSubstr("point 0 has a coordinate"));
+  EXPECT_THAT(complaint({}), HasSubstr("has 0 points and needs two"));
+  EXPECT_THAT(complaint({{1, 2}}), HasSubstr("has 1 point and needs two"));
+  EXPECT_THAT(complaint({{1, 2}, {3, 4}, {3, 4}}),
+              HasSubstr("point 2 of the separator repeats the one before"));
+  EXPECT_THAT(complaint({{1, 2}, {3, std::nan("")}}),
+              HasSubstr("point 1 of the separator has a coordinate"));
+  EXPECT_THAT(complaint({{1, 1e80}, {3, 4}}),
+              HasSubstr("point 0 of the separator has a coordinate"));
 }
 
 TEST(Separator, KnowsWhatItSharesWithAnother) {

@@ -40,9 +40,9 @@ inline cdt::Point random_point(std::mt19937_64& random, Ground ground) {
   return {x, 2 * x + 1};
 }
 
-/// A line of two to six points, none of which repeats the one before it.
+/// A line of two to six points, now and then of up to 60, none of which repeats the one before it.
 inline std::vector<cdt::Point> random_line(std::mt19937_64& random, Ground ground) {
-  const std::size_t count = 2 + random() % 5;
+  const std::size_t count = 2 + random() % (random() % 8 == 0 ? 59 : 5);
   std::vector<cdt::Point> points;
   while (points.size() < count) {
     const cdt::Point p = random_point(random, ground);
