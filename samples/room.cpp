@@ -21,7 +21,7 @@
 
 namespace {
 
-using loft::io::Colour;
+using loft::Colour;
 using loft::io::SvgFrame;
 using loft::io::SvgPath;
 using loft::io::to_hex;
