@@ -94,11 +94,13 @@ void LiveServer::ask(const Request& request, Response& response) const {
   SharedScene* const scene = find(request.matches[1].str());
   if (scene == nullptr) return refuse(response, 404, "there is no such tab");
   const std::string what = request.matches[2].str();
-  if (what == "edges") return response.set_content(scene->edges(), "application/octet-stream");
   answer_or_refuse(response, [&] {
     const Question question =
         read_question(what, request.get_param_value("id"), request.get_param_value("at"));
-    answer(response, 200, scene->answer(question));
+    if (const auto bytes = scene->bytes(question))
+      response.set_content(*bytes, "application/octet-stream");
+    else
+      answer(response, 200, scene->answer(question));
   });
 }
 

@@ -14,12 +14,6 @@ using cdt::Point;
 using cdt::Triangulation;
 using overlay::Overlay;
 
-void append_number(std::string& bytes, double number) {
-  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(number));
-  for (unsigned shift = 0; shift < 32; shift += 8)
-    bytes += static_cast<char>(static_cast<unsigned char>(bits >> shift));
-}
-
 void append_edge(std::string& bytes, Point a, Point b) {
   for (const double number : {a.x, a.y, b.x, b.y}) append_number(bytes, number);
 }
@@ -43,6 +37,11 @@ Json result_as_json(const Overlay& overlay, overlay::ResultId result,
 
 Json Scene::answer(const Question& question) {
   throw Refusal(404, "nothing is known here of " + question.what);
+}
+
+std::optional<std::string> Scene::bytes(const Question& question) {
+  if (question.what != "edges") return {};
+  return edges_as_bytes(mesh());
 }
 
 void Scene::add_cost(Json& json) const {
@@ -86,6 +85,12 @@ Json change_of(const Overlay& overlay, overlay::ResultId result) {
 
 Json all_of_result(const Overlay& overlay, overlay::ResultId result) {
   return result_as_json(overlay, result, overlay.border(result));
+}
+
+void append_number(std::string& bytes, double number) {
+  const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(number));
+  for (unsigned shift = 0; shift < 32; shift += 8)
+    bytes += static_cast<char>(static_cast<unsigned char>(bits >> shift));
 }
 
 std::string edges_as_bytes(const Triangulation& mesh) {

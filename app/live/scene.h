@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,8 +30,11 @@ class Scene {
   /// Does what is asked for; what has changed by it. Throws Refusal, or std::invalid_argument where
   /// what follows from it is no usable coordinate: then nothing has changed.
   virtual Json apply(const Edit& edit) = 0;
-  /// Throws Refusal.
+  /// Throws Refusal: 404 where nothing is known of it.
   [[nodiscard]] virtual Json answer(const Question& question);
+  /// An answer that is numbers alone, of 4 bytes, lowest first; none where it is no such question.
+  /// All scenes know `edges`, edges_as_bytes().
+  [[nodiscard]] virtual std::optional<std::string> bytes(const Question& question);
   /// Lets time pass; what has changed by it, or null.
   virtual Json advance(double) { return nullptr; }
 
@@ -68,8 +72,10 @@ inline constexpr std::size_t most_items = 20'000;
 /// The same for who knows nothing yet.
 [[nodiscard]] Json all_of_result(const overlay::Overlay& overlay, overlay::ResultId result);
 
-/// The edges of a triangulation as numbers of 4 bytes, lowest first, x, y, x, y of each: how many
-/// are free, as an edge of four times that number, the free ones, then the constrained ones.
+/// As 4 bytes, lowest first.
+void append_number(std::string& bytes, double number);
+/// The edges of a triangulation as such numbers, x, y, x, y of each: how many are free, as an edge of
+/// four times that number, the free ones, then the constrained ones.
 [[nodiscard]] std::string edges_as_bytes(const cdt::Triangulation& mesh);
 
 /// Something that can be dragged: rings or lines as they were given, and how far they are from

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "app/live/classes_scene.h"
+#include "app/live/field_scene.h"
 #include "app/live/map_scene.h"
 #include "app/live/paths_scene.h"
 #include "app/live/shapes_scene.h"
@@ -25,7 +27,9 @@ struct TabKind {
 
 constexpr std::array kinds{TabKind{"shapes", scene_of<ShapesScene>},
                            TabKind{"map", scene_of<MapScene>},
-                           TabKind{"paths", scene_of<PathsScene>}};
+                           TabKind{"paths", scene_of<PathsScene>},
+                           TabKind{"field", scene_of<FieldScene>},
+                           TabKind{"classes", scene_of<ClassesScene>}};
 
 }  // namespace
 
@@ -44,6 +48,12 @@ std::string tab_for(const io::Map& map) {
     return !one.lines.empty() || !one.points.empty() || io::property(one, "layer").has_value();
   };
   const auto has_name = [](const io::Feature& one) { return io::id_or_name(one).has_value(); };
+  const auto has_value = [](const io::Feature& one) {
+    return !one.points.empty() && io::property(one, "value").has_value();
+  };
+  const auto has_area = [](const io::Feature& one) { return !one.polygons.empty(); };
+  if (std::ranges::any_of(map.features, has_value)) return "field";
+  if (std::ranges::none_of(map.features, has_area)) return "classes";
   if (std::ranges::any_of(map.features, is_way)) return "paths";
   return std::ranges::all_of(map.features, has_name) ? "map" : "shapes";
 }

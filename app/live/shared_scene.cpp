@@ -43,9 +43,9 @@ Json SharedScene::answer(const Question& question) {
   return refuse_what_fails([&] { return scene_->answer(question); });
 }
 
-std::string SharedScene::edges() {
+std::optional<std::string> SharedScene::bytes(const Question& question) {
   const std::lock_guard lock(mutex_);
-  return edges_as_bytes(scene_->mesh());
+  return refuse_what_fails([&] { return scene_->bytes(question); });
 }
 
 void SharedScene::advance() {

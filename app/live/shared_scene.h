@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -27,9 +28,9 @@ class SharedScene {
   /// An edit as it comes: what its event is called, `{"event": number, "microseconds": cost}`.
   /// Throws Refusal, whatever was thrown inside.
   Json apply(std::string_view text);
+  /// As Scene has them. Throw Refusal.
   [[nodiscard]] Json answer(const Question& question);
-  /// edges_as_bytes().
-  [[nodiscard]] std::string edges();
+  [[nodiscard]] std::optional<std::string> bytes(const Question& question);
   /// Time goes on as far as it has since the last call, but for what is more than a second.
   void advance();
   /// The whole state, and the number of the event after it.

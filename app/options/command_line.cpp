@@ -323,8 +323,9 @@ CLI::App* add_live(CLI::App& app, LiveCommand& command) {
                   "Scene to open, " + loft::io::scene_extensions() +
                       "; without it each tab has one of its own");
   sub->add_option("--tab", command.tab,
-                  "The tab that it is opened in, and that is shown at first (default: lines, points "
-                  "and layers are for paths, polygons with names a map, others shapes)")
+                  "The tab that it is opened in, and that is shown at first (default: points with a "
+                  "property value are for field, points and lines alone for classes, among polygons "
+                  "for paths; polygons with names are a map, others shapes)")
       ->type_name("TAB")
       ->check(CLI::IsMember(tab_names()));
   begin_group(*sub, server);

@@ -132,6 +132,8 @@ export class Board {
     const [x, y] = this.toPage([this.origin[0] + at[0], this.origin[1] + at[1]]);
     this.pen.setTransform(ratio * this.scale, 0, 0, -ratio * this.scale, ratio * (x + dx), ratio * (y + dy));
   }
+  // In pixels of the page.
+  enterPage() { this.pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0); }
   // The same, for coordinates as they are.
   enterPlaneItself() { this.enterPlane([-this.origin[0], -this.origin[1]]); }
 
@@ -151,6 +153,7 @@ export class Board {
     return found;
   }
   forgetColours() { this.#colours.clear(); }
+  isDark() { return document.documentElement.dataset.theme === 'dark'; }
 
   // --- Frames ---
 

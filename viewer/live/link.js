@@ -22,7 +22,7 @@ export class Link extends EventTarget {
     document.addEventListener('visibilitychange', () => {
       if (!document.hidden && this.#source?.readyState === EventSource.CLOSED) this.#open();
     });
-    addEventListener('pagehide', () => this.#source?.close());
+    addEventListener('pagehide', () => this.close());
   }
 
   // Which tab's events come; `last` is the id of the last one that is known of it.
@@ -33,6 +33,12 @@ export class Link extends EventTarget {
   }
 
   get last() { return this.#last; }
+
+  // No events come until a tab is followed again.
+  close() {
+    clearTimeout(this.#timer);
+    this.#source?.close();
+  }
 
   // Resolves with the number of the edit's event, or nothing where it was refused. Edits with the same
   // key replace one another while they wait.
@@ -55,9 +61,10 @@ export class Link extends EventTarget {
     return response.json();
   }
 
-  async edges() {
-    const response = await fetch(`tabs/${this.#tab}/edges`);
-    if (!response.ok) throw new Error('no edges');
+  // The same, where the answer is numbers alone.
+  async numbers(question) {
+    const response = await fetch(`tabs/${this.#tab}/${question}`);
+    if (!response.ok) throw new Error(`no ${question}`);
     return new Float32Array(await response.arrayBuffer());
   }
 

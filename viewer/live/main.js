@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 import { Board } from './board.js';
+import { Classes } from './classes.js';
 import { listenToKeys } from './keys.js';
+import { Fields } from './field.js';
 import { Link } from './link.js';
 import { counted, make, microseconds } from './make.js';
 import { Atlas } from './map.js';
@@ -33,7 +35,7 @@ const page = {
 globalThis.live = page;  // for tests
 
 const triangles = new Triangles(page);
-const tabs = [new Shapes(page), new Atlas(page), new Rooms(page)];
+const tabs = [new Shapes(page), new Atlas(page), new Rooms(page), new Fields(page), new Classes(page)];
 const waiting = new Map();  // events that are not in the picture yet: when they were asked for
 
 function draw(board) {
@@ -45,7 +47,7 @@ function draw(board) {
 function drawFront(board, now) {
   if (!tab?.hasBegun) return false;
   const goesOn = tab.drawFront(board, now);
-  page.drawn = tab.event;
+  page.drawn = tab.shownEvent;
   measureDelays();
   return goesOn;
 }
@@ -181,6 +183,7 @@ function listenToControls() {
 function showTheme() {
   element('theme').setAttribute('aria-pressed', String(theme.isDark));
   page.board.forgetColours();
+  tab?.showTheme?.();
   page.board.invalidate();
 }
 

@@ -36,9 +36,9 @@ export function slider(words, most, step, oninput) {
   const range = make('input', { type: 'range', min: '0', max: String(most), step: String(step), 'aria-label': words });
   range.addEventListener('input', () => oninput(Number(range.value)));
   const element = make('label', { className: 'slider' }, make('span', {}, words), value, range);
-  return { element, set(number) {
-    if (document.activeElement !== range || !range.matches(':active')) range.value = String(number);
-    value.textContent = short(number);
+  return { element, set(number, text = short(number)) {
+    if (!range.matches(':active')) range.value = String(number);
+    value.textContent = text;
   } };
 }
 

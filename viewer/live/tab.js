@@ -141,6 +141,7 @@ export class Tab {
   size() { return this.board.px(Math.min(this.board.width, this.board.height) / 16); }
 
   // --- For tabs to say ---
+  get shownEvent() { return this.event; }  // the last one that is in the picture
   reset() {}
   change() {}
   draw() {}          // the ground

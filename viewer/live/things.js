@@ -5,7 +5,7 @@ import { grow } from './border.js';
 
 // Rings are x, y, x, y, ...; `at` is how far they are from where they were given. `map`, where there is
 // one, is [xx, xy, yx, yy]: it turns them before. With `isLocal` rings are around a place of their own,
-// not where they are in the plane.
+// not where they are in the plane. Lines have `isLine`; points `isSpot`, they are where `at` says.
 export class Things {
   #things = new Map();
   #isLocal;
@@ -21,7 +21,7 @@ export class Things {
   values() { return this.#things.values(); }
 
   add(thing) {
-    thing.rings = thing.rings.map((ring) => Float64Array.from(ring));
+    thing.rings = (thing.rings ?? [[0, 0]]).map((ring) => Float64Array.from(ring));
     forgetShape(thing);
     this.#things.set(thing.id, thing);
   }
@@ -61,7 +61,7 @@ export class Things {
       if (p[0] < left - near || p[0] > right + near || p[1] < low - near || p[1] > high + near) continue;
       const size = (right - left) * (high - low);
       if (best && size >= best.size) continue;
-      if (thing.isLine ? isNear(thing, p, near) : isInside(thing, p)) best = { thing, size };
+      if (isHit(thing, p, near)) best = { thing, size };
     }
     return best?.thing;
   }
@@ -100,6 +100,11 @@ function sidesOf(thing, see) {
       see(mapped(thing, ring[2 * j], ring[2 * j + 1]), mapped(thing, ring[2 * i], ring[2 * i + 1]));
     }
   }
+}
+
+function isHit(thing, p, near) {
+  if (thing.isSpot) return Math.hypot(...p) <= near;
+  return thing.isLine ? isNear(thing, p, near) : isInside(thing, p);
 }
 
 function isInside(thing, [x, y]) {

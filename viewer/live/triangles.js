@@ -28,7 +28,7 @@ export class Triangles {
       this.#isOld = false;
       const { board, link } = this.#page;
       const { origin } = board;
-      try { this.#path = pathOf(await link.edges(), origin); } catch { break; }
+      try { this.#path = pathOf(await link.numbers('edges'), origin); } catch { break; }
       board.invalidate();
     }
     this.#isAsking = false;
