@@ -5,6 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <utility>
 
 #include "app/live/dice.h"
@@ -22,12 +23,16 @@ using fields::Smoothness;
 constexpr double columns_of_raster = 280;
 
 /// How high the made-up valley is: hills on both sides of a bed that winds.
+constexpr double lake_level = 112;
+
 double bed(double x) { return 50 + 14 * std::sin(x / 26) + 4 * std::sin(x / 9); }
 double height(Point p) {
   const double aside = std::abs(p.y - bed(p.x));
   const double hills = 9 * std::sin(p.x / 17 + 1) + 7 * std::cos(p.y / 13) + 5 * std::sin((p.x - p.y) / 11);
   return 120 - 0.35 * p.x + 58 * aside / (aside + 16) + hills * std::min(1.0, aside / 20);
 }
+
+double lake_width(double x) { return x > 50 ? 7 : 5; }
 
 std::optional<double> number_of(const io::Feature& feature, const char* key) {
   const auto text = io::property(feature, key);
@@ -59,26 +64,61 @@ double nice_step(double range) {
 
 FieldScene::FieldScene() {
   box_ = {{0, 0}, {160, 100}};
-  Dice dice(5);
-  std::vector<Point> river;
-  std::vector<double> levels;
-  for (int i = 0; i <= 20; ++i) {
-    river.push_back({8.0 * i, bed(8.0 * i)});
-    levels.push_back(118 - 0.35 * 8.0 * i);
+  add_river(0, 30, 118, lake_level);
+  add_lake();
+  add_river(66, 160, 94, 62);
+  add_hills();
+  add_dam();
+  add_profile();
+}
+
+void FieldScene::add_river(double from, double to, double first_level, double last_level) {
+  Line river{.kind = LineKind::feature};
+  for (int i = 0; i <= 12; ++i) {
+    const double part = i / 12.0;
+    const double x = from + part * (to - from);
+    river.points.push_back({x, bed(x)});
+    river.values.push_back(first_level + part * (last_level - first_level));
   }
-  add_line({.kind = LineKind::feature, .points = river, .values = levels});
+  add_line(std::move(river));
+}
+
+/// Before the dam, all of it as high.
+void FieldScene::add_lake() {
+  Line shore{.kind = LineKind::feature, .ends = cdt::closed};
+  for (int i = 0; i < 24; ++i) {
+    const double angle = 2 * std::numbers::pi * i / 24;
+    const double x = 47 - 17 * std::cos(angle);
+    shore.points.push_back({x, bed(x) + lake_width(x) * std::sin(angle)});
+    shore.values.push_back(lake_level);
+  }
+  add_line(std::move(shore));
+}
+
+void FieldScene::add_hills() {
+  Dice dice(5);
   for (int i = 0; i < 20; ++i) {
     for (int j = 0; j < 13; ++j) {
       const Point p{std::clamp(8.42 * i + dice.between(-3, 3), 0.0, 160.0),
                     std::clamp(8.33 * j + dice.between(-3, 3), 0.0, 100.0)};
       const bool is_corner = (i == 0 || i == 19) && (j == 0 || j == 12);
-      if (std::abs(p.y - bed(p.x)) > 3 && !is_corner) add_sample(p, height(p));
+      const double free = p.x > 28 && p.x < 72 ? 9 : 3;
+      if (std::abs(p.y - bed(p.x)) > free && !is_corner) add_sample(p, height(p));
     }
   }
   for (const double x : {0.0, 160.0})
     for (const double y : {0.0, 100.0}) add_sample({x, y}, height({x, y}));
-  add_line({.kind = LineKind::barrier, .points = {{97, 78}, {101, 64}, {99, 56}}});
-  add_profile();
+}
+
+/// Across the valley: the lake on its right, the river deep below on its left.
+void FieldScene::add_dam() {
+  Line dam{.kind = LineKind::wall};
+  for (const double aside : {11.0, 5.0, 0.0, -5.0, -11.0}) {
+    dam.points.push_back({65 + std::abs(aside) / 6, bed(65) + aside});
+    dam.left.push_back(std::abs(aside) > 10 ? lake_level : 95);
+    dam.right.push_back(lake_level);
+  }
+  add_line(std::move(dam));
 }
 
 FieldScene::FieldScene(const io::Map& map) {
@@ -118,8 +158,17 @@ ItemId FieldScene::add_sample(Point at, double value) {
   return next_++;
 }
 
+fields::Line FieldScene::in_field(const Line& line, std::span<const Point> points) {
+  return {.points = points,
+          .kind = line.kind,
+          .values = line.values,
+          .left = line.left,
+          .right = line.right,
+          .ends = line.ends};
+}
+
 ItemId FieldScene::add_line(Line line) {
-  line.id = field_.insert({.points = line.points, .kind = line.kind, .values = line.values});
+  line.id = field_.insert(in_field(line, line.points));
   lines_.emplace(next_, std::move(line));
   return next_++;
 }
@@ -134,7 +183,8 @@ Json FieldScene::sample_as_json(ItemId id) const {
 Json FieldScene::line_as_json(ItemId id) const {
   const Line& line = lines_.at(id);
   const std::string kind = line.id ? std::string(fields::name_of(line.kind)) : "profile";
-  return {{"id", id}, {"kind", kind}, {"at", app::as_json(line.at)}, {"points", flat(line.points)}};
+  return {{"id", id}, {"kind", kind}, {"at", app::as_json(line.at)}, {"points", flat(line.points)},
+          {"is_closed", line.ends == cdt::closed}};
 }
 
 Json FieldScene::state() const {
@@ -159,7 +209,8 @@ std::pair<double, double> FieldScene::range() const {
   };
   for (const auto& [id, sample] : samples_) add(field_.sample(sample).value);
   for (const auto& [id, line] : lines_)
-    for (const double value : line.values) add(value);
+    for (const auto* values : {&line.values, &line.left, &line.right})
+      std::ranges::for_each(*values, add);
   return range.first <= range.second ? range : std::pair(0.0, 0.0);
 }
 
@@ -243,7 +294,9 @@ Json FieldScene::apply(const Edit& edit) {
       break;
     case Edit::Kind::reshape: {
       Line& line = known_line(edit);
-      if (line.kind == LineKind::feature) throw Refusal(422, "its values belong to its points");
+      const bool has_values = line.kind == LineKind::feature || line.kind == LineKind::wall;
+      if (has_values && edit.points.size() != line.points.size())
+        throw Refusal(422, "its values belong to its points: there are as many");
       measure_edit([&] { place_line(line, {}, edit.points); });
       change["lines"] = Json::array({line_as_json(*edit.id)});
       break;
@@ -282,8 +335,7 @@ void FieldScene::place_line(Line& line, Point at, std::vector<Point> points) {
   const std::vector<Point> there = shifted(points, at);
   for (const Point& p : there)
     if (!cdt::Triangulation::is_usable(p)) throw Refusal(422, "there it is not usable");
-  if (line.id)
-    field_.move(*line.id, {.points = there, .kind = line.kind, .values = line.values});
+  if (line.id) field_.move(*line.id, in_field(line, there));
   line.at = at;
   line.points = std::move(points);
 }

@@ -17,7 +17,8 @@ namespace loft::app {
 /// whose profile is shown.
 ///
 ///     move      a sample to a place; a line, or the profile's, by a vector from where it was given
-///     reshape   the profile's line, or another one, keeping what it is
+///     reshape   the profile's line, or another one, which stays what it is; where it has values, as
+///               many points as before
 ///     insert    a sample with a value (default: that of the surface there); with the name `soft` or
 ///               `barrier` a line
 ///     remove    a sample or a line
@@ -27,7 +28,7 @@ namespace loft::app {
 /// rows from the top; `isolines`, `profile`, and `value` (at).
 class FieldScene : public Scene {
  public:
-  /// A valley with a river and a dam.
+  /// A valley with a river, a dam across it, and the lake before that.
   FieldScene();
   /// Points with a `value` (or z, height) are samples; lines are soft, or what their property `kind`
   /// says, barrier or soft.
@@ -43,15 +44,23 @@ class FieldScene : public Scene {
  private:
   struct Line {
     fields::LineKind kind;
-    std::vector<cdt::Point> points;  // as they were given
-    std::vector<double> values = {};
+    std::vector<cdt::Point> points = {};  // as they were given
+    cdt::Ends ends = cdt::open;
+    std::vector<double> values = {};  // of a feature, one for each point
+    std::vector<double> left = {};    // of a wall
+    std::vector<double> right = {};
     cdt::Point at{};
     std::optional<fields::LineId> id{};  // none: that of the profile
   };
 
   ItemId add_sample(cdt::Point place, double value);
   ItemId add_line(Line line);
+  void add_river(double from, double to, double first_level, double last_level);
+  void add_lake();
+  void add_hills();
+  void add_dam();
   void add_profile();
+  [[nodiscard]] static fields::Line in_field(const Line& line, std::span<const cdt::Point> points);
   [[nodiscard]] fields::Smoothness smoothness() const;
   [[nodiscard]] std::vector<double> levels() const;
   [[nodiscard]] std::pair<double, double> range() const;

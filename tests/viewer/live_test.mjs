@@ -172,6 +172,31 @@ test('agents walk, and a box in the way of one is walked around', async () => {
   await complaints();
 });
 
+test('a dam is dragged: the surface and the profile follow', async () => {
+  await open('field');
+  await until(() => viewer.page.locator('#profile').evaluate((chart) => chart.width), (width) => width > 100);
+  await settle();
+  const before = await viewer.picture();
+  const vertex = [65, 50 + 14 * Math.sin(65 / 26) + 4 * Math.sin(65 / 9)];  // of the dam
+  await drag(vertex, [vertex[0] + 12, vertex[1] + 4]);
+  await until(() => viewer.text('cost'), (words) => words !== '–');
+  await settle();
+  assert.ok(difference(before, await viewer.picture()) > 300);
+  await viewer.page.locator('#cubic').check();
+  await settle();
+  await complaints();
+});
+
+test('a separator is bent, and points change their class', async () => {
+  await open('classes');
+  const counts = () => viewer.page.locator('#classes').innerText();
+  const before = await counts();
+  await drag([48, 36], [52, 48]);
+  await until(counts, (now) => now !== before);
+  assert.equal(await viewer.page.locator('#classes li').count(), 4);
+  await complaints();
+});
+
 test('a page that was away gets what it has missed, and no more', async () => {
   await open('shapes');
   const before = await area();

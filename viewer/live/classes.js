@@ -88,7 +88,7 @@ export class Classes extends TabWithLines {
     }
     this.#drawPoints(board);
     board.enterPlane();
-    board.setThinLine('text');
+    board.setThinLine('quiet');
     for (const { path } of this.#faces) pen.stroke(path);
     for (const line of this.things.values()) {
       if (!line.isLine) continue;

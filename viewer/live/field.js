@@ -101,7 +101,6 @@ export class Fields extends TabWithLines {
 
   // --- What is done ---
 
-  canBend({ kind }) { return kind !== 'feature'; }
   nameOf(id) {
     const thing = this.things.get(id);
     return thing?.isSpot ? `sample ${short(thing.value)}` : thing?.kind ?? '';
@@ -157,7 +156,7 @@ export class Fields extends TabWithLines {
   }
 
   #drawLine(board, line) {
-    if (line.kind === 'barrier') this.drawLine(board, line, 'barrier', 5);
+    if (line.kind === 'barrier' || line.kind === 'wall') this.drawLine(board, line, 'barrier', 5);
     else this.drawLine(board, line, line.kind === 'feature' ? 'river' : 'soft', 3);
   }
 
@@ -171,8 +170,7 @@ export class Fields extends TabWithLines {
     if (!chosen) return;
     if (chosen.isLine) {
       this.drawLine(board, chosen, 'accent', 3);
-      if (this.canBend(chosen)) this.drawHandles(board, chosen, 'accent');
-      return;
+      return this.drawHandles(board, chosen, 'accent');
     }
     board.enterPage();
     board.pen.strokeStyle = board.colour('accent');
@@ -221,7 +219,7 @@ export class Fields extends TabWithLines {
       section('Chosen', this.kind, this.value.element),
       section('New and chosen', make('p', { className: 'buttons' },
         button('+ sample', 'In the middle (I)', () => this.insert(this.board.view.middle)),
-        button('+ dam', 'A line that nothing crosses', () => this.#insertLine('barrier')),
+        button('+ barrier', 'A line that nothing crosses', () => this.#insertLine('barrier')),
         button('Remove', 'Take it away (Del)', () => this.remove()))));
     this.showChosen();
     this.#drawProfile();
@@ -236,12 +234,14 @@ export class Fields extends TabWithLines {
   showChosen() {
     if (!this.kind) return;
     const thing = this.things.get(this.chosen);
-    const words = { feature: 'A river: its own values, a crease.', barrier: 'A dam: nothing crosses it. Drag its corners.',
+    const words = { feature: 'A river, or a shore: its own values, a crease. Drag its corners.',
+                    wall: 'A dam: a value on each of its sides. Drag it, or its corners.',
+                    barrier: 'A barrier: nothing crosses it. Drag its corners.',
                     soft: 'A line on the surface.', profile: 'The line of the profile. Drag its corners.' };
     const isSample = Boolean(thing?.isSpot);
     this.value.element.hidden = !isSample;
     this.kind.textContent = isSample ? 'A sample: drag it, or give it another value ([ and ]).'
-      : words[thing?.kind] ?? 'Drag samples, the dam, or the ends of the dashed line.';
+      : words[thing?.kind] ?? 'Drag samples, the river, the dam, or the ends of the dashed line.';
     if (!isSample) return;
     const { low, high } = this.#picture ?? { low: 0, high: 1 };
     this.value.set(Math.round(1000 * (thing.value - low) / (high - low || 1)), short(thing.value));

@@ -7,11 +7,12 @@ const handle = 4.5;  // pixels
 
 export class TabWithLines extends Tab {
   #bent;  // the line whose corner is being dragged
+  #kept;  // what the program has said of it meanwhile
 
   // A line as the program has it, or a new one.
   takeLine({ id, at, points, ...rest }) {
-    if (id === this.#bent) return;
-    this.addThing({ ...this.things.get(id), ...rest, id, at, rings: [points], isLine: true });
+    if (id === this.#bent) this.#kept = { id, at, points, ...rest };
+    else this.addThing({ ...this.things.get(id), ...rest, id, at, rings: [points], isLine: true });
   }
 
   // The corners of a line, where they are.
@@ -21,8 +22,6 @@ export class TabWithLines extends Tab {
     return corners;
   }
 
-  canBend() { return true; }
-
   grab(p, near) {
     const bend = this.#bend(p, near);
     return bend ?? super.grab(p, near);
@@ -30,29 +29,32 @@ export class TabWithLines extends Tab {
 
   #bend(p, near) {
     for (const line of this.things.values()) {
-      if (!line.isLine || !this.canBend(line)) continue;
+      if (!line.isLine) continue;
       const corners = this.cornersOf(line);
       const corner = corners.findIndex(([x, y]) => Math.hypot(x - p[0], y - p[1]) <= 1.5 * near);
       if (corner < 0) continue;
       this.choose(line.id);
-      this.#bent = line.id;
-      return {
-        move: (to) => {
-          corners[corner] = to;
-          this.#bendTo(line, corners);
-        },
-        end: () => {
-          this.#bent = undefined;
-          this.#bendTo(line, corners);
-        },
-      };
+      return this.#bending(line.id, corners, corner);
     }
     return undefined;
   }
 
-  #bendTo(line, corners) {
-    this.addThing({ ...this.things.get(line.id), at: [0, 0], rings: [corners.flat()] });
-    this.page.send({ do: 'reshape', id: line.id, points: corners }, `reshape ${line.id}`);
+  #bending(id, corners, corner) {
+    let sent = Promise.resolve(0);
+    this.#bent = id;
+    this.#kept = undefined;
+    return {
+      move: (to) => {
+        corners[corner] = to;
+        this.addThing({ ...this.things.get(id), at: [0, 0], rings: [corners.flat()] });
+        sent = this.page.send({ do: 'reshape', id, points: corners }, `reshape ${id}`);
+      },
+      end: async () => {
+        const event = await sent;
+        this.#bent = undefined;
+        if (event === undefined && this.#kept) this.takeLine(this.#kept);  // it was refused
+      },
+    };
   }
 
   drawHandles(board, line, colour) {

@@ -94,7 +94,8 @@ function take(kind, { content, event }) {
 function showCost({ microseconds: took, made, triangles: count, vertices }) {
   if (took === undefined) return;
   if (took > 0) element('cost').textContent = microseconds(took);
-  element('made').textContent = `${counted(made)} of ${counted(count)} triangles made anew, ${counted(vertices)} vertices`;
+  const all = `${counted(count)} triangles, ${counted(vertices)} vertices`;
+  element('made').textContent = made > 0 ? `${counted(made)} new of ${all}` : all;
 }
 
 function listenToLink() {

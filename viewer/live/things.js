@@ -87,7 +87,7 @@ function pathOf(thing, [ox, oy]) {
       if (i === 0) path.moveTo(x - ox, y - oy);
       else path.lineTo(x - ox, y - oy);
     }
-    if (!thing.isLine) path.closePath();
+    if (!thing.isLine || thing.is_closed) path.closePath();
   }
   return path;
 }

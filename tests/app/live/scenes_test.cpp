@@ -8,10 +8,13 @@
 #include <cmath>
 #include <map>
 #include <random>
+#include <set>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "app/live/classes_scene.h"
+#include "app/live/field_scene.h"
 #include "app/live/map_scene.h"
 #include "app/live/paths_scene.h"
 #include "app/live/shapes_scene.h"
@@ -70,6 +73,8 @@ class Page {
         take_border(key, value);
       else if (is_list_of_things(value))
         take_things(value);
+      else if (is_list_of_points(value))
+        for (const Json& point : value) things_[point[0]]["point"] = point;
       else if (key == "removed")
         for (const Json& id : value) things_.erase(id.get<ItemId>());
       else if (!is_about_the_edit(key))
@@ -83,9 +88,18 @@ class Page {
   static bool is_list_of_things(const Json& value) {
     return value.is_array() && !value.empty() && value[0].is_object() && value[0].contains("id");
   }
+  static bool is_list_of_points(const Json& value) {
+    return value.is_array() && !value.empty() && value[0].is_array() && value[0].size() == 5;
+  }
   static bool is_about_the_edit(const std::string& key) {
     return key == "microseconds" || key == "made" || key == "planning" || key == "box" || key == "time" ||
-           key == "parts" || key == "items" || key == "agents";
+           value_is_list(key);
+  }
+  static bool value_is_list(const std::string& key) {
+    static const std::set<std::string> lists{"parts",   "items", "agents",     "samples",
+                                             "lines",   "moved", "separators", "points",
+                                             "shapes",  "nodes", "removed"};
+    return lists.contains(key);
   }
   void take_border(const std::string& key, const Json& border) {
     Edges& edges = borders_[key];
@@ -339,6 +353,60 @@ TEST(PathsScene, SaysHowWideAWayIs) {
   EXPECT_NEAR(scene.answer({.what = "clearance", .at = Point{5, 6}})["clearance"].get<double>(), 2, 1e-12);
 }
 
+// --- Field ---
+
+TEST(FieldScene, FollowsASampleAndTellsTheProfile) {
+  const io::Map map{{{.points = {{0, 0}}, .properties = R"({"value": 1})"},
+                     {.points = {{4, 0}}, .properties = R"({"value": 5})"},
+                     {.points = {{0, 4}}, .properties = R"({"value": 1})"},
+                     {.points = {{4, 4}}, .properties = R"({"value": 5})"}}, ""};
+  FieldScene scene(map);
+  const auto value = [&](Point p) { return scene.answer({.what = "value", .at = p})["value"]; };
+  EXPECT_EQ(value({2, 2}), 3.0);
+  EXPECT_TRUE(value({9, 9}).is_null());
+  EXPECT_EQ(scene.apply(set("value", 9.0, 2U))["samples"][0]["value"], 9.0);
+  EXPECT_EQ(value({4, 0}), 9.0);
+  const ItemId profile = scene.state()["profile"];
+  Edit edit{.kind = Edit::Kind::reshape, .id = profile, .points = {{0, 4}, {4, 4}}};
+  scene.apply(edit);
+  const Json told = scene.answer({.what = "profile"});
+  EXPECT_EQ(told["points"].front(), Json::array({0.0, 1.0, 1.0}));
+  EXPECT_EQ(told["points"].back()[1], 5.0);
+  EXPECT_EQ(told["up"], 4.0);
+  EXPECT_THROW(scene.apply(remove(profile)), Refusal);
+}
+
+TEST(FieldScene, ItsDamHoldsTheLake) {
+  FieldScene scene;
+  const auto value = [&](double x) {
+    return scene.answer({.what = "value", .at = Point{x, 63}})["value"].get<double>();
+  };
+  const double lake = 112;
+  EXPECT_EQ(value(50), lake);
+  EXPECT_LT(value(69), lake - 10);
+  EXPECT_FALSE(scene.answer({.what = "isolines"})["lines"].empty());
+  const auto raster = scene.bytes({.what = "raster"});
+  EXPECT_GT(raster->size(), 4U * 280 * 170);
+}
+
+// --- Classes ---
+
+TEST(ClassesScene, TellsWhichPointsHaveChanged) {
+  const io::Map map{{{.points = {{1, 1}, {3, 1}, {1, 3}, {3, 3}}},
+                     {.lines = {{{2, 0}, {2, 4}}}},
+                     {.lines = {{{0, 2}, {4, 2}}}}}, ""};
+  ClassesScene scene(map);
+  const Json state = scene.state();
+  EXPECT_EQ(state["points"][0], Json::array({1, 1.0, 1.0, 0.0, "+-"}));
+  EXPECT_EQ(state["faces"].size(), 4U);
+  const ItemId first = state["separators"][0]["id"];
+  EXPECT_TRUE(scene.apply(move(first, {0.5, 0}))["points"].empty());
+  const Json change = scene.apply(move(first, {1.5, 0}));
+  EXPECT_EQ(change["points"].size(), 2U);
+  EXPECT_EQ(change["points"][0][4], "+-");
+  EXPECT_THAT(change["separators"][0]["at"], ElementsAre(1.5, 0.0));
+}
+
 // --- Which tab ---
 
 TEST(Tabs, AreChosenByWhatIsInAMap) {
@@ -349,6 +417,9 @@ TEST(Tabs, AreChosenByWhatIsInAMap) {
   EXPECT_EQ(tab_for({{square, named}, ""}), "shapes");
   EXPECT_EQ(tab_for({{named, named}, ""}), "map");
   EXPECT_EQ(tab_for({{named, line}, ""}), "paths");
+  EXPECT_EQ(tab_for({{line}, ""}), "classes");
+  const io::Feature sample{.points = {{0, 0}}, .properties = R"({"value": 1})"};
+  EXPECT_EQ(tab_for({{sample, line}, ""}), "field");
 }
 
 TEST(Tabs, TakeAnyMap) {
