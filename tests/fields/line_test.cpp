@@ -7,8 +7,7 @@ namespace loft::fields {
 namespace {
 
 TEST(LineKind, IsReadAsItIsWritten) {
-  for (const LineKind kind :
-       {LineKind::feature, LineKind::soft, LineKind::wall, LineKind::barrier})
+  for (const LineKind kind : {LineKind::feature, LineKind::soft, LineKind::wall, LineKind::barrier})
     EXPECT_EQ(line_kind(name_of(kind)), kind);
   EXPECT_EQ(line_kind("fence"), std::nullopt);
 }

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: MIT
+// The values at corners where nothing gives one: on soft lines and beside barriers.
+#include <algorithm>
+#include <limits>
+#include <unordered_set>
+#include <vector>
+
+#include "fields/field.h"
+#include "fields/fit.h"
+#include "fields/kept.h"
+
+namespace loft::fields {
+
+namespace {
+
+/// What a plane is fitted to: at least so many values, unless there are fewer.
+constexpr std::size_t enough_values = 8;
+/// Rings are looked at until so many triangles were.
+constexpr std::size_t most_triangles = 4096;
+
+/// The triangles around a corner that no wall or barrier parts from it, ring by ring.
+class Rings {
+ public:
+  Rings(const Field& field, EdgeId e) : field_(field) {
+    EdgeId first = e;
+    while (!field.is_separating(first)) {
+      first = Triangulation::next(field.mesh().twin(first));
+      if (first == e) break;
+    }
+    EdgeId here = first;
+    do {
+      enter(Triangulation::triangle(here));
+      here = field.mesh().rotated(here);
+    } while (here != first && !field.is_separating(here));
+  }
+
+  [[nodiscard]] const std::vector<TriangleId>& outermost() const { return outermost_; }
+  /// Whether there is another ring.
+  [[nodiscard]] bool widen() {
+    const std::vector<TriangleId> inner = std::move(outermost_);
+    outermost_.clear();
+    if (seen_.size() > most_triangles) return false;
+    for (const TriangleId t : inner)
+      for (unsigned corner = 0; corner < 3; ++corner)
+        if (const EdgeId e = Triangulation::edge(t, corner); !field_.is_separating(e))
+          enter(Triangulation::triangle(field_.mesh().twin(e)));
+    return !outermost_.empty();
+  }
+
+ private:
+  void enter(TriangleId t) {
+    if (!field_.mesh().is_infinite(t) && seen_.insert(t).second) outermost_.push_back(t);
+  }
+
+  const Field& field_;
+  std::unordered_set<TriangleId> seen_;
+  std::vector<TriangleId> outermost_;
+};
+
+}  // namespace
+
+double Field::derived_value(EdgeId e) const {
+  const VertexId v = mesh_.from(e);
+  if (v == Triangulation::infinite || is_infinite(e)) return values_[e.index()];
+  Kept kept(derived_state_[v.index()], epoch_);
+  if (kept.holds()) return derived_[e.index()];
+  if (!kept.begin()) return find_derived_value(e);
+  EdgeId here = e;
+  do {
+    const bool is_given = values_[here.index()] == values_[here.index()];
+    if (!is_given && !is_infinite(here)) derived_[here.index()] = find_derived_value(here);
+    here = mesh_.rotated(here);
+  } while (here != e);
+  kept.keep(true);
+  return derived_[e.index()];
+}
+
+double Field::find_derived_value(EdgeId e) const {
+  EdgeId here = e;
+  bool is_beside_separator = false;
+  do {
+    is_beside_separator = is_beside_separator || has_line(here, separates);
+    here = mesh_.rotated(here);
+  } while (here != e);
+  if (is_beside_separator || !firm_) return fit_from_around(e);
+  return firm_->value(mesh_.point(mesh_.from(e)), Smoothness::linear, Side::left, Outside::nearest)
+      .value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+double Field::fit_from_around(EdgeId e) const {
+  Rings rings(*this, e);
+  std::vector<Around> around;
+  const Point at = mesh_.point(mesh_.from(e));
+  do {
+    for (const TriangleId t : rings.outermost())
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        const EdgeId c = Triangulation::edge(t, corner);
+        const double given = values_[c.index()];
+        if (given == given && mesh_.point(mesh_.from(c)) != at)
+          around.push_back({mesh_.point(mesh_.from(c)), given});
+      }
+    // In an order that depends on nothing but the coordinates.
+    std::sort(around.begin(), around.end());
+    around.erase(std::unique(around.begin(), around.end()), around.end());
+    if (around.size() < enough_values) continue;
+    if (const auto value = plane_value(at, around)) return *value;
+  } while (rings.widen());
+  if (around.empty()) return std::numeric_limits<double>::quiet_NaN();
+  return nearest_plane_value(at, around);
+}
+
+}  // namespace loft::fields

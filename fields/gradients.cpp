@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// The gradients at corners of triangles, each fitted to the values around in its sector.
+#include <algorithm>
+#include <vector>
+
+#include "fields/field.h"
+#include "fields/fit.h"
+#include "fields/kept.h"
+
+namespace loft::fields {
+
+namespace {
+
+/// Whether a gradient is another beyond an edge.
+bool parts_gradients(const Field& field, EdgeId e) {
+  return field.is_separating(e) || field.is_crease(e);
+}
+
+/// The first edge of the sector of an edge, clockwise; itself if nothing parts any.
+EdgeId begin_of_sector(const Field& field, EdgeId e) {
+  EdgeId first = e;
+  while (!parts_gradients(field, first)) {
+    first = Triangulation::next(field.mesh().twin(first));
+    if (first == e) break;
+  }
+  return first;
+}
+
+}  // namespace
+
+Vector Field::corner_gradient(EdgeId e) const {
+  if (is_infinite(e)) return {};
+  const VertexId v = mesh_.from(e);
+  Kept kept(gradient_state_[v.index()], epoch_);
+  if (kept.holds()) return gradients_[e.index()];
+  bool reads_derived = false;
+  if (!kept.begin()) return find_gradient(e, reads_derived);
+  EdgeId here = begin_of_sector(*this, e);
+  const EdgeId first = here;
+  do {
+    const Vector gradient = is_infinite(here) ? Vector{} : find_gradient(here, reads_derived);
+    do {
+      gradients_[here.index()] = gradient;
+      here = mesh_.rotated(here);
+    } while (here != first && !parts_gradients(*this, here));
+  } while (here != first);
+  kept.keep(reads_derived);
+  return gradients_[e.index()];
+}
+
+Vector Field::find_gradient(EdgeId e, bool& reads_derived) const {
+  std::vector<Around> around;
+  const auto look_at = [&](EdgeId corner) {
+    reads_derived = reads_derived || values_[corner.index()] != values_[corner.index()];
+    const double value = corner_value(corner);
+    if (value == value) around.push_back({mesh_.point(mesh_.from(corner)), value});
+  };
+  reads_derived = reads_derived || values_[e.index()] != values_[e.index()];
+  const EdgeId first = begin_of_sector(*this, e);
+  EdgeId here = first;
+  do {
+    const EdgeId opposite = Triangulation::next(here);
+    look_at(opposite);
+    look_at(Triangulation::prev(here));
+    if (!parts_gradients(*this, opposite)) look_at(Triangulation::prev(mesh_.twin(opposite)));
+    here = mesh_.rotated(here);
+  } while (here != first && !parts_gradients(*this, here));
+  std::sort(around.begin(), around.end());
+  around.erase(std::unique(around.begin(), around.end()), around.end());
+  const double value = corner_value(e);
+  if (around.empty() || !(value == value)) return {};
+  return fit_gradient(mesh_.point(mesh_.from(e)), value, around);
+}
+
+/// After something at a vertex: of those whose gradients look at it.
+void Field::forget_gradients_around(VertexId v) {
+  if (!mesh_.is_vertex(v)) return;
+  gradient_state_[v.index()] = 0;
+  const EdgeId first = mesh_.edge(v);
+  if (first.is_none()) return;
+  EdgeId here = first;
+  do {
+    const EdgeId opposite = Triangulation::next(here);
+    gradient_state_[mesh_.from(opposite).index()] = 0;
+    gradient_state_[mesh_.apex(mesh_.twin(opposite)).index()] = 0;
+    here = mesh_.rotated(here);
+  } while (here != first);
+}
+
+}  // namespace loft::fields

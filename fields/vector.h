@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include "cdt/point.h"
+
+namespace loft::fields {
+
+/// A direction with a length; a gradient.
+struct Vector {
+  double x = 0;
+  double y = 0;
+
+  friend bool operator==(const Vector&, const Vector&) = default;
+  friend Vector operator+(Vector a, Vector b) { return {a.x + b.x, a.y + b.y}; }
+  friend Vector operator*(double factor, Vector a) { return {factor * a.x, factor * a.y}; }
+};
+
+[[nodiscard]] inline double dot(Vector a, Vector b) { return a.x * b.x + a.y * b.y; }
+[[nodiscard]] inline double cross(Vector a, Vector b) { return a.x * b.y - a.y * b.x; }
+
+/// From one place to another.
+[[nodiscard]] inline Vector way(cdt::Point from, cdt::Point to) {
+  return {to.x - from.x, to.y - from.y};
+}
+
+}  // namespace loft::fields
