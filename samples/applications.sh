@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: MIT
 # Draws what the triangulation is and what it is used for: the figures of the paper that it follows, a
 # gasket whose hole moves, an island that is dragged over a border, the ways of discs through a town, of
-# agents among polygons, and of one agent through a room whose boxes move.
+# agents among polygons, and of one agent through a room whose boxes move, a valley from samples.
 # Builds what that needs; installs missing Debian packages first, fetches the map with npm.
 set -eu
 cd "$(dirname "$0")/.."
@@ -15,7 +15,7 @@ fi
 [ -f build/release/CMakeCache.txt ] && tests= || tests=-DLOFT_TESTS=OFF
 cmake --preset release $tests
 cmake --build --preset release -j "$(nproc)" --target \
-  loft agents figures gasket island moving_shapes room skull_slices town
+  loft agents figures gasket island moving_agents moving_shapes room skull_slices terrain town
 
 loft=build/release/app/loft
 out=build/samples
@@ -25,7 +25,8 @@ echo "== Constraints of all kinds, one that is removed, a rectangle that passes 
 build/release/samples/figures $out
 
 echo "== A star that is moved over shapes that overlap, forty agents on their ways"
-build/release/samples/moving_shapes $out
+build/release/samples/moving_shapes $out/figure_6_shapes.svg
+build/release/samples/moving_agents $out/figure_6_agents.svg
 
 echo "== 960 hexagons, contours of a skull, the countries of the world"
 node samples/hexagons.mjs > $out/hexagons.txt
@@ -48,6 +49,9 @@ build/release/samples/agents $out/agents.svg
 echo "== An agent goes through a room whose boxes move, and finds other ways"
 build/release/samples/room $out/room.svg
 
+echo "== A valley from samples, with a river and a wall; a road that moves over it"
+build/release/samples/terrain $out
+
 echo "== Where the countries of the map overlap already, and where they leave gaps"
 $loft coverage $out/world_10m.geojson --gap-width 0.01 -o $out/world_faults.csv > $out/world_faults.txt
 tail -n 1 $out/world_faults.txt
@@ -57,7 +61,7 @@ cat << END
 Done. The pictures, for any browser, are in $PWD/$out:
   figure_1.svg, figure_4.svg, figure_5.svg, figure_6_shapes.svg, figure_6_agents.svg
   figure_7a.svg, figure_7bc.svg, figure_7d.svg; 7e and 7f are town.svg and room.svg
-  gasket.svg, island.svg, agents.svg
+  gasket.svg, island.svg, agents.svg, terrain.svg, road.svg
 and the table of overlaps and gaps is $PWD/$out/world_faults.csv. Next, try
   $loft overlay --help
   $loft query $out/world_10m.geojson --points points.csv

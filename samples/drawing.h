@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What several samples need: numbers that look random and are the same everywhere, pictures of
-// several panels, triangulations drawn in them, and main().
+// What several samples need: numbers that look random and are the same everywhere, shapes, pictures
+// of several panels, triangulations drawn in them, and main().
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,10 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <numbers>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "cdt/triangulation.h"
@@ -36,11 +38,36 @@ class Dice {
   std::mt19937_64 random_;
 };
 
+/// Corners on circles around a place, in turn on an outer and an inner one.
+inline std::vector<Point> star(Point centre, double outer, double inner, int corners,
+                               double turn = 0) {
+  std::vector<Point> ring;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = turn + 2 * std::numbers::pi * i / corners;
+    const double radius = i % 2 == 0 ? outer : inner;
+    ring.push_back({centre.x + radius * std::cos(angle), centre.y + radius * std::sin(angle)});
+  }
+  return ring;
+}
+
 constexpr double pixel = loft::io::SvgFrame::steps_per_pixel;
 constexpr Colour paper_tone{0xfb, 0xfa, 0xf6};
 constexpr Colour solid_tone{0xc9, 0xcf, 0xd6};
 constexpr Colour border_tone{0x7d, 0x87, 0x93};
 constexpr Colour ink_tone{0x3a, 0x43, 0x50};
+
+/// A colour between others that are evenly spread from 0 to 1.
+inline Colour between(const std::vector<Colour>& stops, double part) {
+  const double place = std::clamp(part, 0.0, 1.0) * static_cast<double>(stops.size() - 1);
+  const std::size_t first = std::min(static_cast<std::size_t>(place), stops.size() - 2);
+  const double share = place - static_cast<double>(first);
+  const auto mixed = [share](double low, double high) {
+    return static_cast<std::uint8_t>(std::lround(low + share * (high - low)));
+  };
+  const Colour low = stops[first];
+  const Colour high = stops[first + 1];
+  return {mixed(low.red, high.red), mixed(low.green, high.green), mixed(low.blue, high.blue)};
+}
 
 // Attributes of what is drawn; widths are in pixels.
 inline std::string fill(Colour tone) { return "fill=\"" + to_hex(tone) + "\" "; }
@@ -67,14 +94,18 @@ class Drawing {
       : file_(path), panels_(panels), frame_(whole(panels), panels.width) {
     out() << frame_.opening() << "<title>" << title << "</title>\n"
           << "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n";
+    const auto [low, high] = panels_.shown;
+    for (int panel = panels.columns * panels.rows; panel-- > 0;) {
+      turn_to(panel);
+      area({{low, {high.x, low.y}, high, {low.x, high.y}}},
+           fill(paper_tone) + stroke(border_tone, 0.8));
+    }
   }
 
-  /// What follows is drawn in the panel with that number, on a ground of that colour.
-  void turn_to(int panel, Colour ground = paper_tone) {
+  /// What follows is drawn in the panel with that number.
+  void turn_to(int panel) {
     const int row = panel / panels_.columns;
     shift_ = {column_step(panels_) * (panel % panels_.columns), -row_step(panels_) * row};
-    const auto [low, high] = panels_.shown;
-    area({{low, {high.x, low.y}, high, {low.x, high.y}}}, fill(ground) + stroke(border_tone, 0.8));
   }
 
   /// What an odd number of rings is around.
@@ -120,6 +151,34 @@ class Drawing {
           << "\" text-anchor=\"middle\" font-family=\"sans-serif\" font-size=\""
           << loft::io::whole_steps(panels_.caption_size * pixel) << "\" " << fill(ink_tone) << ">"
           << words << "</text>\n";
+  }
+
+  /// Small cells that fill the panel, in bands of equal colour: `band(p)` is the number of a
+  /// colour, or negative where there is none.
+  template <class Band>
+  void cells(const std::vector<Colour>& colours, double cell, Band band) {
+    const auto [low, high] = panels_.shown;
+    std::vector<loft::io::SvgPath> paths(colours.size());
+    for (double y = low.y; y < high.y; y += cell) {
+      const double top = std::min(y + cell, high.y);
+      int here = -1;
+      double begin = low.x;
+      const auto end_run = [&](double x) {
+        if (here >= 0)
+          paths[static_cast<std::size_t>(here)].loop(
+              {place({begin, y}), place({x, y}), place({x, top}), place({begin, top})});
+        begin = x;
+      };
+      for (double x = low.x; x < high.x; x += cell) {
+        const int next = band(Point{x + cell / 2, y + cell / 2});
+        if (next == here) continue;
+        end_run(x);
+        here = next;
+      }
+      end_run(high.x);
+    }
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      paths[i].write(out(), "shape-rendering=\"crispEdges\" " + fill(colours[i]));
   }
 
   /// How many pixels a length in the plane is.

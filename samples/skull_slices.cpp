@@ -2,7 +2,6 @@
 // Figures 7b and 7c of Kallmann, Bieri and Thalmann (2003): contours of a skull in one
 // triangulation, and one slice of it: skull_slices samples/data/skull.ndjson skull_slices.svg
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <string>
@@ -41,19 +40,7 @@ std::string counts(const std::string& what, const Triangulation& mesh) {
          std::to_string(mesh.vertex_count()) + " vertices";
 }
 
-/// From blue at the bottom over lilac to orange at the top.
-Colour tone_at(double part) {
-  const bool is_low = part < 0.5;
-  const Colour from = loft::io::dark_tone(is_low ? 7 : 3);
-  const Colour to = loft::io::dark_tone(is_low ? 3 : 2);
-  const double share = is_low ? 2 * part : 2 * part - 1;
-  const auto mixed = [share](int low, int high) {
-    return static_cast<std::uint8_t>(low + share * (high - low));
-  };
-  return {mixed(from.red, to.red), mixed(from.green, to.green), mixed(from.blue, to.blue)};
-}
-
-/// Every sixth slice: where contours cross in projection the walls between them are slanted.
+/// Every sixth slice: blue at the bottom, orange at the top.
 void draw_all(Drawing& drawing, const std::vector<loft::Slice>& slices) {
   constexpr std::size_t stride = 6;
   Triangulation mesh;
@@ -61,11 +48,13 @@ void draw_all(Drawing& drawing, const std::vector<loft::Slice>& slices) {
   for (std::size_t i = 0; i < slices.size(); i += stride)
     by_slice.push_back(insert(mesh, slices[i]));
   draw_free_edges(drawing, mesh, stroke(loft::io::edge_tone, 0.5) + "stroke-opacity=\"0.35\"");
-  for (std::size_t i = 0; i < by_slice.size(); ++i)
+  const std::vector<Colour> upwards{loft::io::dark_tone(7), loft::io::dark_tone(3),
+                                    loft::io::dark_tone(2)};
+  for (std::size_t i = 0; i < by_slice.size(); ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(by_slice.size() - 1);
     for (const ConstraintId id : by_slice[i])
-      draw_constraint(drawing, mesh, id,
-                      tone_at(static_cast<double>(i) / static_cast<double>(by_slice.size() - 1)),
-                      1.3);
+      draw_constraint(drawing, mesh, id, samples::between(upwards, part), 1.3);
+  }
   const std::string words = counts(std::to_string(by_slice.size()) + " slices: ", mesh);
   drawing.caption(words);
   std::printf("%s\n", words.c_str());

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: MIT
+// A valley with a river and a wall, from samples: without lines, with lines, and smooth. Then a
+// road moves over it, and its profile with it: terrain FOLDER
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fields/field.h"
+#include "samples/drawing.h"
+
+namespace {
+
+using loft::fields::Field;
+using loft::fields::LineId;
+using loft::fields::LineKind;
+using loft::fields::Smoothness;
+using loft::io::Colour;
+using samples::Dice;
+using samples::Drawing;
+using samples::fill;
+using samples::Point;
+using samples::stroke;
+
+constexpr double width = 160;
+constexpr double height = 100;
+constexpr double highest = 58;
+constexpr double step_at_wall = 14;
+
+// The land as it is; samples know it in places only.
+
+double river_at(double x) { return 44 + 13 * std::sin(x / 26); }
+double wall_at(double x) { return 79 + 5 * std::sin(1 + x / 24); }
+
+double land(Point p, bool is_above_wall) {
+  const double bed = 22 - 0.1 * p.x;
+  const double bank = 24 * (1 - std::exp(-std::abs(p.y - river_at(p.x)) / 20));
+  return bed + bank + 2 * std::sin(p.x / 15) * std::sin(p.y / 11) +
+         (is_above_wall ? step_at_wall : 0);
+}
+double land(Point p) { return land(p, p.y > wall_at(p.x)); }
+
+Field with_samples() {
+  Field field;
+  Dice dice(3);
+  constexpr int columns = 13;
+  constexpr int rows = 9;
+  for (int i = 0; i < columns; ++i)
+    for (int j = 0; j < rows; ++j) {
+      const auto jitter = [&](int k, int last) {
+        return k == 0 || k == last ? 0 : dice.between(-0.35, 0.35);
+      };
+      const Point p{width * (i + jitter(i, columns - 1)) / (columns - 1),
+                    height * (j + jitter(j, rows - 1)) / (rows - 1)};
+      field.insert({p, land(p)});
+    }
+  return field;
+}
+
+std::vector<Point> course(double (*y_at)(double)) {
+  std::vector<Point> points;
+  for (double x = 0; x <= width; x += 5) points.push_back({x, y_at(x)});
+  return points;
+}
+
+/// The river is a crease with the height of its bed, the wall has a height on each side.
+void insert_lines(Field& field) {
+  std::vector<double> bed;
+  for (const Point p : course(river_at)) bed.push_back(land(p));
+  field.insert({.points = course(river_at), .kind = LineKind::feature, .values = bed});
+  std::vector<double> above;
+  std::vector<double> below;
+  for (const Point p : course(wall_at)) {
+    above.push_back(land(p, true));
+    below.push_back(land(p, false));
+  }
+  field.insert({.points = course(wall_at), .kind = LineKind::wall, .left = above, .right = below});
+}
+
+constexpr int bands = 29;  // of two metres
+
+std::vector<Colour> colours() {
+  const std::vector<Colour> stops{{0x2f, 0x6b, 0x6e},
+                                  {0x6f, 0xa2, 0x7b},
+                                  {0xd3, 0xcb, 0x8a},
+                                  {0xc9, 0x9a, 0x6b},
+                                  {0xf4, 0xec, 0xe4}};
+  std::vector<Colour> result;
+  for (int i = 0; i < bands; ++i) result.push_back(samples::between(stops, i / (bands - 1.0)));
+  return result;
+}
+
+/// Returns by how much the surface is off from the land, root mean square.
+double draw_land(Drawing& drawing, const Field& field, Smoothness smoothness) {
+  double sum = 0;
+  std::size_t count = 0;
+  drawing.cells(colours(), 0.4, [&](Point p) {
+    const auto value = field.value(p, smoothness);
+    if (!value) return -1;
+    sum += (*value - land(p)) * (*value - land(p));
+    ++count;
+    return std::clamp(static_cast<int>(*value / highest * bands), 0, bands - 1);
+  });
+  return std::sqrt(sum / static_cast<double>(count));
+}
+
+void draw_lines(Drawing& drawing) {
+  drawing.line(course(river_at), stroke({0x1f, 0x4e, 0x79}, 2));
+  drawing.line(course(wall_at), stroke(samples::ink_tone, 2.6));
+}
+
+void draw_surfaces(const std::string& path) {
+  Drawing drawing(path, "A valley from samples",
+                  {.shown = {{0, 0}, {width, height}}, .columns = 3, .width = 1000});
+  Field field = with_samples();
+  const std::array<std::pair<const char*, Smoothness>, 3> kinds{
+      {{"samples alone", Smoothness::linear},
+       {"with river and wall", Smoothness::linear},
+       {"the same, cubic", Smoothness::cubic}}};
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const auto [words, smoothness] = kinds[i];
+    if (i == 1) insert_lines(field);
+    drawing.turn_to(static_cast<int>(i));
+    const double error = draw_land(drawing, field, smoothness);
+    if (smoothness == Smoothness::linear) draw_free_edges(drawing, field.mesh());
+    if (i == 0) {
+      std::vector<Point> places;
+      for (std::uint32_t id = 0; id < field.id_bound(); ++id)
+        places.push_back(field.sample(loft::fields::SampleId(id)).place);
+      drawing.dots(places, samples::ink_tone, 3);
+    } else {
+      draw_lines(drawing);
+    }
+    std::array<char, 64> text{};
+    std::snprintf(text.data(), text.size(), "%s: off by %.2f m", words, error);
+    drawing.caption(text.data());
+    std::printf("%s\n", text.data());
+  }
+  drawing.finish();
+}
+
+/// The heights along a line, as a curve in a panel: as far as it is long, ten times as high.
+std::vector<Point> profile(const Field& field, Point from, Point to) {
+  std::vector<Point> curve;
+  constexpr int steps = 600;
+  for (int i = 0; i <= steps; ++i) {
+    const double part = static_cast<double>(i) / steps;
+    const Point p{from.x + part * (to.x - from.x), from.y + part * (to.y - from.y)};
+    if (const auto value = field.value(p, Smoothness::cubic))
+      curve.push_back({part * width, *value / highest * height});
+  }
+  return curve;
+}
+
+/// A road is laid over the land, then it moves.
+void draw_road(const std::string& path) {
+  Drawing drawing(path, "A road and its profile",
+                  {.shown = {{0, 0}, {width, height}}, .columns = 2});
+  Field field = with_samples();
+  insert_lines(field);
+  drawing.turn_to(0);
+  draw_land(drawing, field, Smoothness::cubic);
+  draw_lines(drawing);
+  drawing.turn_to(1);
+  for (double level = 10; level < highest; level += 10) {
+    const double y = level / highest * height;
+    drawing.line({{0, y}, {width, y}}, stroke({0xdd, 0xdf, 0xe2}, 1));
+  }
+  std::array<Point, 2> ends{{{14, 3}, {46, 97}}};
+  const LineId road = field.insert({.points = ends, .kind = LineKind::soft});
+  constexpr std::array<std::size_t, 4> hues{6, 3, 7, 2};
+  constexpr double way = 33;
+  using Clock = std::chrono::steady_clock;
+  std::chrono::duration<double, std::micro> took{};
+  for (const std::size_t hue : hues) {
+    const Colour tone = loft::io::dark_tone(hue);
+    drawing.turn_to(0);
+    drawing.line({ends[0], ends[1]}, stroke({0xff, 0xff, 0xff}, 4.5));
+    drawing.line({ends[0], ends[1]}, stroke(tone, 2.6));
+    drawing.turn_to(1);
+    drawing.line(profile(field, ends[0], ends[1]), stroke(tone, 2));
+    const auto start = Clock::now();
+    field.translate(road, {way, 0});
+    took += Clock::now() - start;
+    for (Point& p : ends) p.x += way;
+  }
+  drawing.turn_to(0);
+  drawing.caption("a road moves over the valley");
+  drawing.turn_to(1);
+  drawing.caption("the heights along it; a line every 10 m");
+  drawing.finish();
+  std::printf("a road that crosses the valley moves: %.0f us\n", took.count() / hues.size());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return samples::run_sample(argc, argv, ".", [](const std::string& folder) {
+    draw_surfaces(folder + "/terrain.svg");
+    draw_road(folder + "/road.svg");
+  });
+}
