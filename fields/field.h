@@ -92,7 +92,8 @@ enum class Outside {
 /// Each triangle has a value at each of its corners: at a vertex where walls or barriers meet, one
 /// for each sector between them. Values along a line are linear between its points. What has no
 /// value given:
-/// - A soft line is on the linear surface as it is without soft lines.
+/// - A soft line is on the linear surface as it is without soft lines, beyond its hull at the
+///   height of the nearest place.
 /// - A barrier, on each of its sides, is on the plane that fits best to the given values around:
 ///   those that are joined to its side by triangles with no wall or barrier between, from ring to
 ///   ring until there are enough. Where there are none at all, there is no value.
@@ -101,9 +102,9 @@ enum class Outside {
 /// so at the points of features and, on each side, of walls. Nothing inside or on the hull is
 /// without value, but where barriers enclose a part without any. Linear values are between those at
 /// the corners. Both triangles of an edge have the same values on it, bit for bit. A plane is
-/// reproduced. What is beyond a wall or barrier has no influence at all. The result is a function
-/// of what is there, whatever the order of edits (where the triangulation's snaps() is empty, and
-/// but for OnConflict::first).
+/// reproduced, but behind barriers where all values are in one line. What is beyond a wall or
+/// barrier has no influence at all. The result is a function of what is there, whatever the order
+/// of edits (where the triangulation's snaps() is empty, and but for OnConflict::first).
 ///
 /// Cubic values are those of Clough and Tocher's triangles (1965): their gradients at vertices fit
 /// the values around best, by quadratic polynomials, from what is in the same sector between
@@ -251,7 +252,8 @@ class Field {
   // interpolate.cpp
   [[nodiscard]] EdgeId seen_from(EdgeId e, Side side) const;
   [[nodiscard]] EdgeId corner_at(EdgeId e, Side side) const;
-  [[nodiscard]] std::optional<double> value_beyond(EdgeId e, Point p, Smoothness smoothness) const;
+  [[nodiscard]] std::optional<double> value_beyond(EdgeId e, Point p, Smoothness smoothness,
+                                                   Side side) const;
   [[nodiscard]] std::optional<double> lone_value(Point p, Outside outside) const;
   [[nodiscard]] const Values* first_separator(EdgeId e, bool& is_forward) const;
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cdt/predicates.h"
 #include "fields/along.h"
 #include "fields/field_parts.h"
 #include "fields/patch.h"
@@ -41,15 +42,18 @@ Point nearest_on(const Triangulation& mesh, EdgeId e, Point p) {
 }
 
 /// The edge of the hull that is nearest to a point beyond it, from one that is seen from there: the
-/// nearest is seen, too, and none between is further than both of its neighbours.
+/// nearest is seen, too, and of those that are, none is further than both of its neighbours.
 EdgeId nearest_hull_edge(const Triangulation& mesh, EdgeId e, Point p) {
   const auto distance = [&](EdgeId edge) {
     const Vector d = way(p, nearest_on(mesh, edge, p));
     return dot(d, d);
   };
+  const auto is_nearer = [&](EdgeId beside) {
+    return cdt::orient(mesh.point(mesh.from(beside)), mesh.point(mesh.to(beside)), p) >= 0 &&
+           distance(beside) < distance(e);
+  };
   for (const auto step : {next_on_hull, previous_on_hull})
-    for (EdgeId beside = step(mesh, e); distance(beside) < distance(e); beside = step(mesh, e))
-      e = beside;
+    for (EdgeId beside = step(mesh, e); is_nearer(beside); beside = step(mesh, e)) e = beside;
   return e;
 }
 
@@ -69,7 +73,7 @@ std::optional<double> Field::value(Point p, Smoothness smoothness, Side side,
     }
     case Location::Kind::outside:
       if (outside == Outside::nothing) return std::nullopt;
-      return value_beyond(place.edge, p, smoothness);
+      return value_beyond(place.edge, p, smoothness, side);
     case Location::Kind::nowhere:
       break;
   }
@@ -105,20 +109,26 @@ EdgeId Field::seen_from(EdgeId e, Side side) const {
   return is_forward == (side == Side::left) ? e : twin;
 }
 
-/// The corner at the vertex that e starts from, on that side of the wall or barrier there.
+/// The corner at the vertex that e starts from, on that side of the wall or barrier there: the one
+/// that was inserted first, best where it leaves, where it does so twice on the way that comes
+/// first.
 EdgeId Field::corner_at(EdgeId e, Side side) const {
   EdgeId best;
   EdgeId inside = e;
   const Values* first = nullptr;
   bool best_is_forward = false;
+  const auto is_better = [&](EdgeId here, const Values& line, bool is_forward) {
+    if (best.is_none() || line.order != first->order)
+      return best.is_none() || line.order < first->order;
+    if (is_forward != best_is_forward) return is_forward;
+    return mesh_.point(mesh_.to(here)) < mesh_.point(mesh_.to(best));
+  };
   EdgeId here = e;
   do {
     bool is_forward = false;
     const Values* line = first_separator(here, is_forward);
     if (!is_infinite(here)) inside = here;
-    const bool is_better = line != nullptr && (first == nullptr || line->order < first->order ||
-                                               (line == first && is_forward && !best_is_forward));
-    if (is_better) {
+    if (line != nullptr && is_better(here, *line, is_forward)) {
       first = line;
       best = here;
       best_is_forward = is_forward;
@@ -141,8 +151,10 @@ const Field::Values* Field::first_separator(EdgeId e, bool& is_forward) const {
   for (const cdt::Passage passage : mesh_.passages(e)) {
     const std::uint32_t c = mesh_.segment(passage.segment()).constraint.index();
     if (c >= lines_.size() || !lines_[c] || !separates(lines_[c]->kind)) continue;
-    if (first != nullptr && first->order <= lines_[c]->order) continue;
-    first = lines_[c].get();
+    const Values& line = *lines_[c];
+    const bool is_other_way = first == &line && passage.is_upward();
+    if (first != nullptr && first->order <= line.order && !is_other_way) continue;
+    first = &line;
     is_forward = mesh_.is_forward(e, passage);
   }
   return first;
@@ -179,11 +191,13 @@ double Field::edge_value(EdgeId e, Point p, Smoothness smoothness) const {
          t * t * (end_value + s * (2 * end_value - end_slope));
 }
 
-std::optional<double> Field::value_beyond(EdgeId e, Point p, Smoothness smoothness) const {
+std::optional<double> Field::value_beyond(EdgeId e, Point p, Smoothness smoothness,
+                                          Side side) const {
   e = nearest_hull_edge(mesh_, hull_edge(mesh_, e), p);
   const Point place = nearest_on(mesh_, e, p);
-  const EdgeId twin = mesh_.twin(e);
-  return if_any(edge_value(is_infinite(twin) ? e : twin, place, smoothness));
+  for (const EdgeId end : {e, Triangulation::next(e)})
+    if (mesh_.point(mesh_.from(end)) == place) return if_any(corner_value(corner_at(end, side)));
+  return if_any(edge_value(seen_from(e, side), place, smoothness));
 }
 
 /// Where there is no vertex but one.
