@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A valley with a river and a wall, from samples: without lines, with lines, and smooth. Then a
 // road moves over it, and its profile with it: terrain FOLDER
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "fields/field.h"
@@ -94,18 +95,33 @@ std::vector<Colour> colours() {
   return result;
 }
 
-/// Returns by how much the surface is off from the land, root mean square.
-double draw_land(Drawing& drawing, const Field& field, Smoothness smoothness) {
-  double sum = 0;
-  std::size_t count = 0;
+template <class Height>
+void draw_cells(Drawing& drawing, Height height_at) {
   drawing.cells(colours(), 0.4, [&](Point p) {
-    const auto value = field.value(p, smoothness);
-    if (!value) return -1;
-    sum += (*value - land(p)) * (*value - land(p));
-    ++count;
-    return std::clamp(static_cast<int>(*value / highest * bands), 0, bands - 1);
+    return std::clamp(static_cast<int>(height_at(p) / highest * bands), 0, bands - 1);
   });
-  return std::sqrt(sum / static_cast<double>(count));
+}
+
+void draw_field(Drawing& drawing, const Field& field, Smoothness smoothness) {
+  draw_cells(drawing, [&](Point p) { return *field.value(p, smoothness); });
+}
+
+/// By how much the surface is off from the land, root mean square.
+double error_of(const Field& field, Smoothness smoothness) {
+  double sum = 0;
+  int count = 0;
+  for (double x = 0.5; x < width; ++x)
+    for (double y = 0.5; y < height; ++y, ++count) {
+      const double error = *field.value({x, y}, smoothness) - land({x, y});
+      sum += error * error;
+    }
+  return std::sqrt(sum / count);
+}
+
+std::string text_of(double metres) {
+  std::array<char, 32> text{};
+  std::snprintf(text.data(), text.size(), "%.2f", metres);
+  return text.data();
 }
 
 void draw_lines(Drawing& drawing) {
@@ -113,33 +129,38 @@ void draw_lines(Drawing& drawing) {
   drawing.line(course(wall_at), stroke(samples::ink_tone, 2.6));
 }
 
+std::vector<Point> places(const Field& field) {
+  std::vector<Point> result;
+  for (std::uint32_t id = 0; id < field.id_bound(); ++id)
+    if (const loft::fields::SampleId sample(id); field.is_sample(sample))
+      result.push_back(field.sample(sample).place);
+  return result;
+}
+
+/// The land as it is, from samples alone, with its lines, and these bent.
 void draw_surfaces(const std::string& path) {
   Drawing drawing(path, "A valley from samples",
-                  {.shown = {{0, 0}, {width, height}}, .columns = 3, .width = 1000});
+                  {.shown = {{0, 0}, {width, height}}, .columns = 2, .rows = 2});
   Field field = with_samples();
-  const std::array<std::pair<const char*, Smoothness>, 3> kinds{
-      {{"samples alone", Smoothness::linear},
-       {"with river and wall", Smoothness::linear},
-       {"the same, cubic", Smoothness::cubic}}};
-  for (std::size_t i = 0; i < kinds.size(); ++i) {
-    const auto [words, smoothness] = kinds[i];
-    if (i == 1) insert_lines(field);
-    drawing.turn_to(static_cast<int>(i));
-    const double error = draw_land(drawing, field, smoothness);
+  draw_cells(drawing, [](Point p) { return land(p); });
+  draw_lines(drawing);
+  drawing.dots(places(field), samples::ink_tone, 4);
+  drawing.caption("the land, and where it is measured");
+
+  const auto draw = [&](int panel, const std::string& what, Smoothness smoothness) {
+    drawing.turn_to(panel);
+    draw_field(drawing, field, smoothness);
     if (smoothness == Smoothness::linear) draw_free_edges(drawing, field.mesh());
-    if (i == 0) {
-      std::vector<Point> places;
-      for (std::uint32_t id = 0; id < field.id_bound(); ++id)
-        places.push_back(field.sample(loft::fields::SampleId(id)).place);
-      drawing.dots(places, samples::ink_tone, 3);
-    } else {
-      draw_lines(drawing);
-    }
-    std::array<char, 64> text{};
-    std::snprintf(text.data(), text.size(), "%s: off by %.2f m", words, error);
-    drawing.caption(text.data());
-    std::printf("%s\n", text.data());
-  }
+    const std::string words = what + ": off by " + text_of(error_of(field, smoothness)) + " m";
+    drawing.caption(words);
+    std::printf("%s\n", words.c_str());
+  };
+  draw(1, "samples alone", Smoothness::linear);
+  insert_lines(field);
+  draw(2, "with river and wall", Smoothness::linear);
+  draw_lines(drawing);
+  draw(3, "the same, cubic", Smoothness::cubic);
+  draw_lines(drawing);
   drawing.finish();
 }
 
@@ -163,7 +184,7 @@ void draw_road(const std::string& path) {
   Field field = with_samples();
   insert_lines(field);
   drawing.turn_to(0);
-  draw_land(drawing, field, Smoothness::cubic);
+  draw_field(drawing, field, Smoothness::cubic);
   draw_lines(drawing);
   drawing.turn_to(1);
   for (double level = 10; level < highest; level += 10) {
