@@ -23,7 +23,6 @@ using loft::fields::Smoothness;
 using loft::io::Colour;
 using samples::Dice;
 using samples::Drawing;
-using samples::fill;
 using samples::Point;
 using samples::stroke;
 
