@@ -47,14 +47,14 @@ class Passer {
  public:
   Passer(const Triangulation& mesh, Point a, Point b) : mesh_(mesh), a_(a), b_(b) {}
 
-  std::vector<TriangleId> run() {
+  Way run() {
     if (a_ == b_) return {};
     const Location place = mesh_.locate(a_);
     switch (place.kind) {
       case Location::Kind::nowhere:
         break;
       case Location::Kind::vertex:
-        at_ = place.edge;
+        start_at(place.edge);
         break;
       case Location::Kind::edge:
         leave_edge(place.edge);
@@ -67,7 +67,7 @@ class Passer {
         break;
     }
     while (!at_.is_none()) leave_vertex(std::exchange(at_, EdgeId::none()));
-    return std::move(passed_);
+    return std::move(way_);
   }
 
  private:
@@ -80,6 +80,21 @@ class Passer {
     return place == b_ || (a_ < b_) == (b_ < place);
   }
 
+  void pass(TriangleId t) {
+    way_.parts.push_back({.triangle = t, .along = {}, .exit = {}, .end = {}});
+  }
+  void start_at(EdgeId e) {
+    at_ = e;
+    way_.start = mesh_.from(e);
+  }
+  /// The last part comes to the vertex that e starts from.
+  void come_to(EdgeId e) {
+    const VertexId v = mesh_.from(e);
+    if (!is_past_end(mesh_.point(v))) way_.parts.back().end = v;
+    if (!is_beyond_end(mesh_.point(v))) at_ = e;
+  }
+  [[nodiscard]] bool is_past_end(Point place) const { return place != b_ && is_beyond_end(place); }
+
   /// Whether b is before or on e, which the line crosses out of the triangle on its left.
   [[nodiscard]] bool ends_before(EdgeId e) const {
     return orient(mesh_.point(mesh_.from(e)), mesh_.point(mesh_.to(e)), b_) >= 0;
@@ -87,7 +102,7 @@ class Passer {
 
   /// From a point strictly inside a triangle.
   void leave_triangle(EdgeId e) {
-    passed_.push_back(Triangulation::triangle(e));
+    pass(Triangulation::triangle(e));
     for (unsigned i = 0; i < 3; ++i, e = Triangulation::next(e)) {
       const int from = side(mesh_.from(e));
       const int to = side(mesh_.to(e));
@@ -96,7 +111,7 @@ class Passer {
         return;
       }
       if (from == 0 && is_ahead(mesh_.from(e), a_)) {
-        if (!is_beyond_end(mesh_.point(mesh_.from(e)))) at_ = e;
+        come_to(e);
         return;
       }
     }
@@ -107,22 +122,28 @@ class Passer {
     const int to = side(mesh_.to(e));
     if (to == 0) {
       if (!is_ahead(mesh_.to(e), a_)) e = mesh_.twin(e);
-      if (!is_beyond_end(mesh_.point(mesh_.to(e)))) at_ = mesh_.twin(e);
+      run_along(e);
       return;
     }
     cross(to > 0 ? e : mesh_.twin(e));
   }
 
+  void run_along(EdgeId e) {
+    way_.parts.push_back({.triangle = {}, .along = e, .exit = {}, .end = {}});
+    come_to(mesh_.twin(e));
+  }
+
   /// Over an edge from its left to its right, where from(e) is right of the line, and on.
   void cross(EdgeId e) {
     for (;;) {
+      if (!way_.parts.empty()) way_.parts.back().exit = e;
       const EdgeId f = mesh_.twin(e);
       const VertexId ahead = mesh_.apex(f);
       if (ahead == Triangulation::infinite) return;
-      passed_.push_back(Triangulation::triangle(f));
+      pass(Triangulation::triangle(f));
       const int beside = side(ahead);
       if (beside == 0) {
-        if (!is_beyond_end(mesh_.point(ahead))) at_ = Triangulation::prev(f);
+        come_to(Triangulation::prev(f));
         return;
       }
       e = beside > 0 ? Triangulation::next(f) : Triangulation::prev(f);
@@ -138,12 +159,12 @@ class Passer {
       const VertexId right = mesh_.to(e);
       const VertexId left = mesh_.apex(e);
       if (right != Triangulation::infinite && side(right) == 0 && is_ahead(right, place)) {
-        if (!is_beyond_end(mesh_.point(right))) at_ = mesh_.twin(e);
+        run_along(e);
         return;
       }
       if (right != Triangulation::infinite && left != Triangulation::infinite && side(right) < 0 &&
           side(left) > 0) {
-        passed_.push_back(Triangulation::triangle(e));
+        pass(Triangulation::triangle(e));
         if (!ends_before(Triangulation::next(e))) cross(Triangulation::next(e));
         return;
       }
@@ -172,10 +193,11 @@ class Passer {
       return;
     }
     if (side(mesh_.from(best)) == 0) {
-      at_ = best;
+      start_at(best);
     } else if (side(mesh_.to(best)) == 0) {
-      at_ = mesh_.twin(best);
+      start_at(mesh_.twin(best));
     } else {
+      way_.entry = best;
       cross(best);
     }
   }
@@ -186,7 +208,7 @@ class Passer {
     do {
       const VertexId v = mesh_.from(e);
       if (side(v) == 0 && is_ahead(v, a_) && !is_beyond_end(mesh_.point(v))) {
-        at_ = e;
+        start_at(e);
         return;
       }
       e = Triangulation::next(mesh_.twin(Triangulation::next(e)));
@@ -197,13 +219,18 @@ class Passer {
   Point a_;
   Point b_;
   EdgeId at_;  // from a vertex on the line, where the segment has not ended yet
-  std::vector<TriangleId> passed_;
+  Way way_;
 };
 
 }  // namespace
 
+Way passed_by(const Triangulation& mesh, Point a, Point b) { return Passer(mesh, a, b).run(); }
+
 std::vector<TriangleId> crossed_triangles(const Triangulation& mesh, Point a, Point b) {
-  return Passer(mesh, a, b).run();
+  std::vector<TriangleId> crossed;
+  for (const WayPart& part : passed_by(mesh, a, b).parts)
+    if (!part.triangle.is_none()) crossed.push_back(part.triangle);
+  return crossed;
 }
 
 }  // namespace loft::cdt

@@ -26,8 +26,24 @@ void Field::settle(VertexId v) {
   if (!mesh_.is_vertex(v)) return;
   if (mesh_.edge(v).is_none())
     settle_lone(v);
+  else if (is_made_by_soft_lines(v))
+    leave_open(v);
   else
     settle_sectors(v);
+}
+
+/// Such a vertex is on the surface that is there without them, even on other lines.
+bool Field::is_made_by_soft_lines(VertexId v) const {
+  return firm_ && firm_->mesh_.locate(mesh_.point(v)).kind != cdt::Location::Kind::vertex;
+}
+
+void Field::leave_open(VertexId v) {
+  const EdgeId first = mesh_.edge(v);
+  EdgeId e = first;
+  do {
+    values_[e.index()] = no_value;
+    e = mesh_.rotated(e);
+  } while (e != first);
 }
 
 void Field::settle_lone(VertexId v) {
@@ -92,9 +108,10 @@ void Field::claim_samples(VertexId v) {
 /// in it, walls where it begins, on its left, and where it ends, on its right.
 void Field::claim_along(EdgeId e, bool is_first, bool is_last) {
   for (const cdt::Passage passage : mesh_.passages(e)) {
+    const Values* known = line_along(passage);
+    if (known == nullptr) continue;
+    const Values& line = *known;
     const cdt::ConstraintId c = mesh_.segment(passage.segment()).constraint;
-    if (c.index() >= lines_.size() || !lines_[c.index()]) continue;
-    const Values& line = *lines_[c.index()];
     const std::size_t segment = passage.segment().index() - mesh_.first_segment(c).index();
     if (line.kind == LineKind::feature) claim_at(e, c, segment, line.left);
     if (line.kind != LineKind::wall) continue;

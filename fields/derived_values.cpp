@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The values at corners where nothing gives one: on soft lines and beside barriers.
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <unordered_set>
 #include <vector>
 
-#include "fields/field.h"
+#include "fields/field_parts.h"
 #include "fields/fit.h"
 #include "fields/kept.h"
 
@@ -17,6 +18,12 @@ namespace {
 constexpr std::size_t enough_values = 8;
 /// Rings are looked at until so many triangles were.
 constexpr std::size_t most_triangles = 4096;
+
+/// Whether p comes before q on the way from a to b, which both are on or rounded to.
+bool is_before(Point p, Point q, Point a, Point b) {
+  return std::abs(b.x - a.x) > std::abs(b.y - a.y) ? (p.x < q.x) == (a.x < b.x) && p.x != q.x
+                                                   : (p.y < q.y) == (a.y < b.y) && p.y != q.y;
+}
 
 /// The triangles around a corner that no wall or barrier parts from it, ring by ring.
 class Rings {
@@ -75,16 +82,47 @@ double Field::derived_value(EdgeId e) const {
   return derived_[e.index()];
 }
 
+/// Where there are soft lines, that of the surface without them: at a place on walls and barriers,
+/// on that side of the one that the sector begins or ends at.
 double Field::find_derived_value(EdgeId e) const {
-  EdgeId here = e;
-  bool is_beside_separator = false;
-  do {
-    is_beside_separator = is_beside_separator || has_line(here, separates);
-    here = mesh_.rotated(here);
-  } while (here != e);
-  if (is_beside_separator || !firm_) return fit_from_around(e);
+  if (!firm_) return fit_from_around(e);
+  EdgeId first = e;
+  while (!is_separating(first)) {
+    first = Triangulation::next(mesh_.twin(first));
+    if (first == e) break;
+  }
+  if (const auto value = firm_value_beside(first, true)) return *value;
+  EdgeId last = mesh_.rotated(e);
+  while (last != e && !is_separating(last)) last = mesh_.rotated(last);
+  if (const auto value = firm_value_beside(last, false)) return *value;
   return firm_->value(mesh_.point(mesh_.from(e)), Smoothness::linear, Side::left, Outside::nearest)
       .value_or(std::numeric_limits<double>::quiet_NaN());
+}
+
+/// The value at from(e), on a side of e, in the field without soft lines, if a wall or barrier is
+/// along e. The place may be off it by rounding, so it is looked for along that line.
+std::optional<double> Field::firm_value_beside(EdgeId e, bool is_on_left) const {
+  bool is_forward = false;
+  const std::optional<cdt::Passage> passage = first_separator(e, is_forward);
+  if (!passage) return std::nullopt;
+  const cdt::Segment& segment = mesh_.segment(passage->segment());
+  const LineId line = lines_[segment.constraint.index()]->firm;
+  const std::uint32_t number =
+      passage->segment().index() - mesh_.first_segment(segment.constraint).index();
+  const Triangulation& firm = firm_->mesh_;
+  const cdt::SegmentId same(firm.first_segment(cdt::ConstraintId(line.index())).index() + number);
+  const Point place = mesh_.point(mesh_.from(e));
+  const Point start = firm.point(firm.segment(same).from);
+  const Point end = firm.point(firm.segment(same).to);
+  // The piece that goes on from the place as e does.
+  for (const EdgeId piece : firm.pieces(same)) {
+    const Point to = firm.point(firm.to(piece));
+    if (is_forward ? !is_before(place, to, start, end) : is_before(to, place, start, end)) continue;
+    const EdgeId seen = is_on_left == is_forward ? piece : firm.twin(piece);
+    if (firm_->is_infinite(seen)) return std::nullopt;
+    return firm_->edge_value(seen, place);
+  }
+  return std::nullopt;
 }
 
 double Field::fit_from_around(EdgeId e) const {

@@ -78,9 +78,8 @@ std::vector<Conflict> Field::conflicts() const {
 }
 
 std::optional<LineKind> Field::line_of(cdt::Passage passage) const {
-  const std::uint32_t c = mesh_.segment(passage.segment()).constraint.index();
-  if (c >= lines_.size() || !lines_[c]) return std::nullopt;
-  return lines_[c]->kind;
+  const Values* line = line_along(passage);
+  return line != nullptr ? std::optional(line->kind) : std::nullopt;
 }
 
 // What comes in.
@@ -107,8 +106,8 @@ void Field::expect(LineId line) const {
   if (!is_line(line)) refuse("there is no line ", line);
 }
 
-// Edits. Each goes to the triangulation, then to what is kept beside it, then to the field without
-// soft lines.
+// Edits. Each goes to the triangulation, then to the field without soft lines, then to what is kept
+// beside the triangulation.
 
 SampleId Field::insert(const Sample& sample) { return insert(std::span(&sample, 1)).front(); }
 
@@ -126,6 +125,10 @@ std::vector<SampleId> Field::insert(std::span<const Sample> samples) {
   for (const ConstraintId c : mesh_.insert(points)) ids.push_back(SampleId(c.index()));
   make_room();
   for (std::size_t i = 0; i < ids.size(); ++i) list(ids[i], samples[i].value, order_++);
+  if (firm_) {
+    const std::vector<SampleId> firm = firm_->insert(samples);
+    for (std::size_t i = 0; i < ids.size(); ++i) samples_[ids[i].index()].firm = firm[i];
+  }
   if (is_large) {
     mesh_.record_changes(true);
     rebuild();
@@ -135,10 +138,6 @@ std::vector<SampleId> Field::insert(std::span<const Sample> samples) {
   undo_if_refused(conflicts_before, [&] {
     for (const SampleId id : ids) remove(id);
   });
-  if (firm_) {
-    const std::vector<SampleId> firm = firm_->insert(samples);
-    for (std::size_t i = 0; i < ids.size(); ++i) samples_[ids[i].index()].firm = firm[i];
-  }
   return ids;
 }
 
@@ -152,11 +151,11 @@ LineId Field::insert(const Line& line) {
   lines_[id.index()]->kind = line.kind;
   lines_[id.index()]->order = order_++;
   take_values(id, line);
+  if (firm_ && line.kind != LineKind::soft) lines_[id.index()]->firm = firm_->insert(line);
   make_room();
   touch_line(id);
   finish_edit();
   undo_if_refused(conflicts_before, [&] { remove(id); });
-  if (firm_ && line.kind != LineKind::soft) lines_[id.index()]->firm = firm_->insert(line);
   return id;
 }
 
@@ -170,9 +169,9 @@ void Field::move(SampleId sample, Point place) {
   mesh_.move(constraint(sample), std::span(&place, 1));
   make_room();
   list_at_vertex(sample);
+  if (firm_) firm_->move(given.firm, place);
   finish_edit();
   undo_if_refused(conflicts_before, [&] { move(sample, before); });
-  if (firm_) firm_->move(given.firm, place);
 }
 
 void Field::set_value(SampleId sample, double value) {
@@ -182,9 +181,9 @@ void Field::set_value(SampleId sample, double value) {
   const double before = std::exchange(given.value, value);
   const std::size_t conflicts_before = conflicts_.size();
   touch(given.vertex);
+  if (firm_) firm_->set_value(given.firm, value);
   finish_edit(false);
   undo_if_refused(conflicts_before, [&] { set_value(sample, before); });
-  if (firm_) firm_->set_value(given.firm, value);
 }
 
 void Field::remove(SampleId sample) {
@@ -193,9 +192,9 @@ void Field::remove(SampleId sample) {
   unlist_at_vertex(sample);
   samples_[sample.index()] = {};
   mesh_.remove(constraint(sample));
+  if (firm_) firm_->remove(firm);
   make_room();
   finish_edit();
-  if (firm_ && !firm.is_none()) firm_->remove(firm);
 }
 
 void Field::move(LineId line, const Line& to) {
@@ -211,6 +210,7 @@ void Field::move(LineId line, const Line& to) {
   take_values(line, checked);
   make_room();
   touch_line(line);
+  if (firm_ && checked.kind != LineKind::soft) firm_->move(lines_[line.index()]->firm, to);
   finish_edit();
   undo_if_refused(conflicts_before, [&] {
     move(line, {.points = points_before,
@@ -218,7 +218,6 @@ void Field::move(LineId line, const Line& to) {
                 .left = values_before.left,
                 .right = values_before.right});
   });
-  if (firm_ && checked.kind != LineKind::soft) firm_->move(lines_[line.index()]->firm, to);
 }
 
 void Field::translate(LineId line, Point by) {
@@ -234,10 +233,10 @@ void Field::remove(LineId line) {
   touch_line(line);
   mesh_.remove(constraint(line));
   const std::unique_ptr<Values> values = std::move(lines_[line.index()]);
-  make_room();
-  finish_edit();
   if (firm_ && !values->firm.is_none()) firm_->remove(values->firm);
   if (values->kind == LineKind::soft && --soft_lines_ == 0) firm_.reset();
+  make_room();
+  finish_edit();
 }
 
 void Field::take_values(LineId id, const Line& line) {

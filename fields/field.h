@@ -185,6 +185,10 @@ class Field {
   /// from the triangle on its left.
   [[nodiscard]] double edge_value(EdgeId e, Point p,
                                   Smoothness smoothness = Smoothness::linear) const;
+  /// Of an edge and its twin, the one that has on its left what is on that side of the wall or
+  /// barrier along it, or of the edge as it goes upwards; but of an edge of the hull always the one
+  /// that has the inside there.
+  [[nodiscard]] EdgeId seen_from(EdgeId e, Side side) const;
   /// Goes up with each edit.
   [[nodiscard]] std::uint64_t revision() const { return epoch_; }
 
@@ -232,6 +236,8 @@ class Field {
   void settle(VertexId v);
   void settle_lone(VertexId v);
   void settle_sectors(VertexId v);
+  [[nodiscard]] bool is_made_by_soft_lines(VertexId v) const;
+  void leave_open(VertexId v);
   void gather_ring(VertexId v);
   void claim_samples(VertexId v);
   void claim_along(EdgeId e, bool is_first, bool is_last);
@@ -244,18 +250,19 @@ class Field {
   [[nodiscard]] double derived_value(EdgeId e) const;
   [[nodiscard]] double find_derived_value(EdgeId e) const;
   [[nodiscard]] double fit_from_around(EdgeId e) const;
+  [[nodiscard]] std::optional<double> firm_value_beside(EdgeId e, bool is_on_left) const;
 
   // gradients.cpp
   [[nodiscard]] Vector find_gradient(EdgeId e, bool& reads_derived) const;
   void forget_gradients_around(VertexId v);
 
   // interpolate.cpp
-  [[nodiscard]] EdgeId seen_from(EdgeId e, Side side) const;
   [[nodiscard]] EdgeId corner_at(EdgeId e, Side side) const;
   [[nodiscard]] std::optional<double> value_beyond(EdgeId e, Point p, Smoothness smoothness,
                                                    Side side) const;
   [[nodiscard]] std::optional<double> lone_value(Point p, Outside outside) const;
-  [[nodiscard]] const Values* first_separator(EdgeId e, bool& is_forward) const;
+  [[nodiscard]] std::optional<cdt::Passage> first_separator(EdgeId e, bool& is_forward) const;
+  [[nodiscard]] const Values* line_along(cdt::Passage passage) const;
 
   OnConflict policy_;
   Triangulation mesh_;

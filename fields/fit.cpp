@@ -77,7 +77,7 @@ class QuadraticFit {
     rows_.reserve(around.size());
     for (const Around& a : around) {
       const Vector d = 1 / scale_ * way(at, a.place);
-      const double w = 1 / std::sqrt(dot(d, d));
+      const double w = 1 / dot(d, d);
       rows_.push_back(
           {w * d.x, w * d.y, w * d.x * d.x, w * d.x * d.y, w * d.y * d.y, w * (a.value - value)});
     }

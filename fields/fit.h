@@ -26,7 +26,8 @@ struct Around {
 [[nodiscard]] double nearest_plane_value(cdt::Point at, const std::vector<Around>& around);
 
 /// The gradient, at a place with a value, of the quadratic polynomial through it that fits others
-/// best, weighted by the inverse squares of distances; terms that they do not fix are left out.
+/// best, weighted by the inverse fourth powers of distances, as what is left out grows with their
+/// third; terms that they do not fix are left out.
 [[nodiscard]] Vector fit_gradient(cdt::Point at, double value, const std::vector<Around>& around);
 
 }  // namespace loft::fields

@@ -48,21 +48,31 @@ Vector Field::corner_gradient(EdgeId e) const {
   return gradients_[e.index()];
 }
 
+/// From what is in the sector: the corners of its triangles and of those beside them; if it is not
+/// all around the vertex, also of those beside these, as there is less.
 Vector Field::find_gradient(EdgeId e, bool& reads_derived) const {
   std::vector<Around> around;
   const auto look_at = [&](EdgeId corner) {
     reads_derived = reads_derived || values_[corner.index()] != values_[corner.index()];
     const double value = corner_value(corner);
-    if (value == value) around.push_back({mesh_.point(mesh_.from(corner)), value});
+    if (value == value && mesh_.from(corner) != mesh_.from(e))
+      around.push_back({mesh_.point(mesh_.from(corner)), value});
   };
   reads_derived = reads_derived || values_[e.index()] != values_[e.index()];
   const EdgeId first = begin_of_sector(*this, e);
+  const bool is_part = parts_gradients(*this, first);
   EdgeId here = first;
   do {
     const EdgeId opposite = Triangulation::next(here);
     look_at(opposite);
     look_at(Triangulation::prev(here));
-    if (!parts_gradients(*this, opposite)) look_at(Triangulation::prev(mesh_.twin(opposite)));
+    if (!parts_gradients(*this, opposite)) {
+      const EdgeId beyond = mesh_.twin(opposite);
+      look_at(Triangulation::prev(beyond));
+      if (is_part)
+        for (const EdgeId side : {Triangulation::next(beyond), Triangulation::prev(beyond)})
+          if (!parts_gradients(*this, side)) look_at(Triangulation::prev(mesh_.twin(side)));
+    }
     here = mesh_.rotated(here);
   } while (here != first && !parts_gradients(*this, here));
   std::sort(around.begin(), around.end());
@@ -82,7 +92,10 @@ void Field::forget_gradients_around(VertexId v) {
   do {
     const EdgeId opposite = Triangulation::next(here);
     gradient_state_[mesh_.from(opposite).index()] = 0;
-    gradient_state_[mesh_.apex(mesh_.twin(opposite)).index()] = 0;
+    const EdgeId beyond = mesh_.twin(opposite);
+    gradient_state_[mesh_.apex(beyond).index()] = 0;
+    for (const EdgeId side : {Triangulation::next(beyond), Triangulation::prev(beyond)})
+      gradient_state_[mesh_.apex(mesh_.twin(side)).index()] = 0;
     here = mesh_.rotated(here);
   } while (here != first);
 }

@@ -99,8 +99,6 @@ std::optional<Vector> Field::gradient(Point p, Smoothness smoothness, Side side)
   return patch.has_values() ? std::optional(patch.gradient(p)) : std::nullopt;
 }
 
-/// Of an edge and its twin, the one that has on its left what is on that side of the wall or
-/// barrier along it; but of an edge of the hull always the one that has the inside there.
 EdgeId Field::seen_from(EdgeId e, Side side) const {
   const EdgeId twin = mesh_.twin(e);
   if (is_infinite(e) != is_infinite(twin)) return is_infinite(e) ? twin : e;
@@ -126,7 +124,8 @@ EdgeId Field::corner_at(EdgeId e, Side side) const {
   EdgeId here = e;
   do {
     bool is_forward = false;
-    const Values* line = first_separator(here, is_forward);
+    const std::optional<cdt::Passage> passage = first_separator(here, is_forward);
+    const Values* line = passage ? line_along(*passage) : nullptr;
     if (!is_infinite(here)) inside = here;
     if (line != nullptr && is_better(here, *line, is_forward)) {
       first = line;
@@ -146,18 +145,25 @@ EdgeId Field::corner_at(EdgeId e, Side side) const {
 
 /// Of the walls and barriers along an edge, the one that was inserted first; and whether it runs in
 /// the edge's direction.
-const Field::Values* Field::first_separator(EdgeId e, bool& is_forward) const {
-  const Values* first = nullptr;
+std::optional<cdt::Passage> Field::first_separator(EdgeId e, bool& is_forward) const {
+  std::optional<cdt::Passage> first;
+  const Values* line = nullptr;
   for (const cdt::Passage passage : mesh_.passages(e)) {
-    const std::uint32_t c = mesh_.segment(passage.segment()).constraint.index();
-    if (c >= lines_.size() || !lines_[c] || !separates(lines_[c]->kind)) continue;
-    const Values& line = *lines_[c];
-    const bool is_other_way = first == &line && passage.is_upward();
-    if (first != nullptr && first->order <= line.order && !is_other_way) continue;
-    first = &line;
+    const Values* other = line_along(passage);
+    if (other == nullptr || !separates(other->kind)) continue;
+    // A line that runs there twice: upwards.
+    const bool is_other_way = other == line && passage.is_upward();
+    if (line != nullptr && line->order <= other->order && !is_other_way) continue;
+    line = other;
+    first = passage;
     is_forward = mesh_.is_forward(e, passage);
   }
   return first;
+}
+
+const Field::Values* Field::line_along(cdt::Passage passage) const {
+  const std::uint32_t c = mesh_.segment(passage.segment()).constraint.index();
+  return c < lines_.size() ? lines_[c].get() : nullptr;
 }
 
 double Field::edge_value(EdgeId e, Point p, Smoothness smoothness) const {

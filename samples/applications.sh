@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: MIT
 # Draws what the triangulation is and what it is used for: the figures of the paper that it follows, a
 # gasket whose hole moves, an island that is dragged over a border, the ways of discs through a town, of
-# agents among polygons, and of one agent through a room whose boxes move, a valley from samples.
+# agents among polygons, and of one agent through a room whose boxes move, a valley from
+# samples, and people in classes.
 # Builds what that needs; installs missing Debian packages first, fetches the map with npm.
 set -eu
 cd "$(dirname "$0")/.."
@@ -15,7 +16,7 @@ fi
 [ -f build/release/CMakeCache.txt ] && tests= || tests=-DLOFT_TESTS=OFF
 cmake --preset release $tests
 cmake --build --preset release -j "$(nproc)" --target \
-  loft agents figures gasket island moving_agents moving_shapes room skull_slices terrain town
+  loft agents classes figures gasket island moving_agents moving_shapes room skull_slices terrain town
 
 loft=build/release/app/loft
 out=build/samples
@@ -52,6 +53,9 @@ build/release/samples/room $out/room.svg
 echo "== A valley from samples, with a river and a wall; a road that moves over it"
 build/release/samples/terrain $out
 
+echo "== People by age and education, and two criteria that are moved"
+build/release/samples/classes $out/classes.svg
+
 echo "== Where the countries of the map overlap already, and where they leave gaps"
 $loft coverage $out/world_10m.geojson --gap-width 0.01 -o $out/world_faults.csv > $out/world_faults.txt
 tail -n 1 $out/world_faults.txt
@@ -61,7 +65,7 @@ cat << END
 Done. The pictures, for any browser, are in $PWD/$out:
   figure_1.svg, figure_4.svg, figure_5.svg, figure_6_shapes.svg, figure_6_agents.svg
   figure_7a.svg, figure_7bc.svg, figure_7d.svg; 7e and 7f are town.svg and room.svg
-  gasket.svg, island.svg, agents.svg, terrain.svg, road.svg
+  gasket.svg, island.svg, agents.svg, terrain.svg, road.svg, classes.svg
 and the table of overlaps and gaps is $PWD/$out/world_faults.csv. Next, try
   $loft overlay --help
   $loft query $out/world_10m.geojson --points points.csv

@@ -22,8 +22,8 @@
 
 namespace samples {
 
+using loft::Colour;
 using loft::cdt::Point;
-using loft::io::Colour;
 
 /// The same numbers everywhere.
 class Dice {
@@ -70,10 +70,10 @@ inline Colour between(const std::vector<Colour>& stops, double part) {
 }
 
 // Attributes of what is drawn; widths are in pixels.
-inline std::string fill(Colour tone) { return "fill=\"" + to_hex(tone) + "\" "; }
+inline std::string fill(Colour tone) { return "fill=\"" + loft::io::to_hex(tone) + "\" "; }
 inline std::string stroke(Colour tone, double across) {
-  return "stroke=\"" + to_hex(tone) + "\" stroke-width=\"" + loft::io::whole_steps(across * pixel) +
-         "\" ";
+  return "stroke=\"" + loft::io::to_hex(tone) + "\" stroke-width=\"" +
+         loft::io::whole_steps(across * pixel) + "\" ";
 }
 
 /// What a picture is made of: panels in rows, from the upper left one; each shows the same box of

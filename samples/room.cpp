@@ -18,7 +18,7 @@
 
 namespace {
 
-using loft::io::Colour;
+using loft::Colour;
 using loft::overlay::LayerId;
 using loft::overlay::Overlay;
 using loft::overlay::Point;

@@ -13,9 +13,9 @@
 
 namespace {
 
+using loft::Colour;
 using loft::cdt::ConstraintId;
 using loft::cdt::Triangulation;
-using loft::io::Colour;
 using samples::Drawing;
 using samples::fill;
 using samples::stroke;

@@ -43,7 +43,7 @@ meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes
 session       io/session/*                   stacks
-io            io/{maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,triangulations}     gltf planar session
+io            io/{maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf planar session
 
 words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words
@@ -130,7 +130,7 @@ offenders=$(
   posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
   allow 'cdt overlay paths fields mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
-  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|tiffio\.h|png\.h"
+  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|csv\.h|tiffio\.h|png\.h"
   allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
   forbid 'cdt overlay paths fields mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'

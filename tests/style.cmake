@@ -74,7 +74,7 @@ if(TARGET make_stacks)
     WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   add_test(NAME samples.skull_slices COMMAND skull_slices ${root}/samples/data/skull.ndjson
     skull_slices.svg WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
-  foreach(sample agents figures gasket moving_agents moving_shapes room terrain town)
+  foreach(sample agents classes figures gasket moving_agents moving_shapes room terrain town)
     add_test(NAME samples.${sample} COMMAND ${sample} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
   endforeach()
   # A rectangle that has passed two triangles has left no crossing behind.

@@ -76,6 +76,17 @@ struct QueryCommand {
   bool quiet = false;
 };
 
+/// `loft classify POINTS --separators FILE ...`
+struct ClassifyCommand {
+  std::filesystem::path points;
+  std::filesystem::path separators;
+  std::vector<std::filesystem::path> outputs;
+  std::optional<std::string> value;  ///< a column; not given: value, z or weight, if there is one
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
 /// `loft path SCENE --from X,Y --to X,Y | --queries FILE ...`
 struct PathCommand {
   std::filesystem::path scene;
@@ -197,6 +208,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const TriangulateCommand& command);
 [[nodiscard]] ExitCode run(const OverlayCommand& command);
 [[nodiscard]] ExitCode run(const QueryCommand& command);
+[[nodiscard]] ExitCode run(const ClassifyCommand& command);
 [[nodiscard]] ExitCode run(const CoverageCommand& command);
 [[nodiscard]] ExitCode run(const PathCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);

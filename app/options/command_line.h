@@ -35,6 +35,7 @@ class CommandLine {
   CoverageCommand coverage_;
   QueryCommand query_;
   PathCommand path_;
+  ClassifyCommand classify_;
   CheckCommand check_;
   InfoCommand info_;
   ConvertCommand convert_;

@@ -10,6 +10,7 @@
 #include "io/maps.h"
 #include "io/points.h"
 #include "io/scenes.h"
+#include "io/tables.h"
 
 namespace loft::app {
 
@@ -240,6 +241,46 @@ CLI::App* add_path(CLI::App& app, PathCommand& command) {
       "  loft path town.geojson --from 1,2 --to 30,40 --radius 0.5 -o way.geojson -o way.svg\n"
       "  loft path arena.map --queries arena.scen -o paths.csv\n"
       "  loft path room.geojson --queries agents.csv --moves boxes.ndjson -o paths.geojson");
+  return sub;
+}
+
+CLI::App* add_classify(CLI::App& app, ClassifyCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "classify", "Tell on which side of each of several lines points are; how many are where");
+  sub->add_option(
+         "POINTS", command.points,
+         "Table of points, " + io::point_table_extensions() +
+             ", or - for standard input: columns x and y, or lon and lat, or the first two")
+      ->required();
+  sub->add_option("--separators", command.separators,
+                  "Lines, " + io::map_extensions() +
+                      "; each divides the plane: its ends go on straight to infinity")
+      ->type_name("FILE")
+      ->required();
+  sub->add_option(
+         "--value", command.value,
+         "The column that is summed by class, and makes points darker in pictures (default: "
+         "value, z or weight, if there is one; else the sum of x and y makes them darker)")
+      ->type_name("NAME");
+  begin_group(*sub, map_results);
+  sub->add_option(
+         "-o,--output", command.outputs,
+         "Output file: .csv, the table with a column class; .geojson .json, its points with "
+         "a property class; .svg, a picture of points, lines and classes; may be repeated")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object instead of the table");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->footer(
+      "A class is left, right or on for each line, in their order, parted by semicolons. Of a "
+      "line\n"
+      "that crosses itself, left is what it winds around counter-clockwise if it is closed far "
+      "out\n"
+      "from its last end counter-clockwise to its first: loops change nothing.\n\n"
+      "Examples:\n"
+      "  loft classify people.csv --separators criteria.geojson -o classes.csv -o classes.svg\n"
+      "  loft classify samples.csv --separators faults.geojson --value height --json");
   return sub;
 }
 

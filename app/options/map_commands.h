@@ -12,5 +12,6 @@ CLI::App* add_overlay(CLI::App& app, OverlayCommand& command);
 CLI::App* add_coverage(CLI::App& app, CoverageCommand& command);
 CLI::App* add_query(CLI::App& app, QueryCommand& command);
 CLI::App* add_path(CLI::App& app, PathCommand& command);
+CLI::App* add_classify(CLI::App& app, ClassifyCommand& command);
 
 }  // namespace loft::app

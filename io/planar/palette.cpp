@@ -2,6 +2,8 @@
 #include "io/planar/palette.h"
 
 #include <array>
+#include <cmath>
+#include <cstdint>
 
 namespace loft::io {
 
@@ -33,6 +35,13 @@ std::string to_hex(Colour colour) {
     text += digits[part & 0xfU];
   }
   return text;
+}
+
+Colour mixed(Colour from, Colour to, double share) {
+  const auto mix = [&](std::uint8_t a, std::uint8_t b) {
+    return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
+  };
+  return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
 }
 
 Colour full_tone(std::size_t hue) { return palette_hues[hue].full; }

@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <array>
 #include <cstddef>
-#include <cstdint>
 #include <string>
+
+#include "reconstruct/stack.h"
 
 namespace loft::io {
 
-struct Colour {
-  std::uint8_t red = 0;
-  std::uint8_t green = 0;
-  std::uint8_t blue = 0;
-
-  friend bool operator==(const Colour&, const Colour&) = default;
-};
-
 /// As SVG and CSS have it: `#e9f1f6`.
 [[nodiscard]] std::string to_hex(Colour colour);
+
+/// What is a share of the way, 0 to 1, from one colour to another.
+[[nodiscard]] Colour mixed(Colour from, Colour to, double share);
 
 /// Calm hues, told apart by number.
 constexpr std::size_t hue_count = 8;

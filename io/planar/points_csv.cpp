@@ -1,30 +1,12 @@
 // SPDX-License-Identifier: MIT
 #include "io/planar/points_csv.h"
 
-#include <array>
-#include <cstddef>
 #include <string>
-#include <utility>
 
+#include "io/planar/columns_of_points.h"
 #include "io/planar/number_table.h"
 
 namespace loft::io {
-
-namespace {
-
-/// Where x and y are.
-std::array<std::size_t, 2> columns_of_points(const NumberTable& table) {
-  constexpr std::array<std::pair<std::string_view, std::string_view>, 4> known{
-      {{"x", "y"}, {"lon", "lat"}, {"lng", "lat"}, {"longitude", "latitude"}}};
-  for (const auto& [x, y] : known) {
-    const auto first = table.column(x);
-    const auto second = table.column(y);
-    if (first && second) return {*first, *second};
-  }
-  return {0, 1};
-}
-
-}  // namespace
 
 std::vector<cdt::Point> read_points_csv(std::string_view text, std::string_view name) {
   NumberTable table(text, name);

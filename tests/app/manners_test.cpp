@@ -82,8 +82,9 @@ TEST(Manners, HelpShowsTheOptionsOfACommandUnderHeadings) {
 TEST(Manners, ExamplesInHelpUseOptionsThatAreThere) {
   const Folder folder;
   std::size_t options = 0;
-  for (const std::string command : {"", "reconstruct", "convert", "slice", "info", "check",
-                                    "stream", "view", "overlay", "query", "coverage", "path"}) {
+  for (const std::string command :
+       {"", "reconstruct", "convert", "slice", "info", "check", "stream", "view", "overlay",
+        "query", "coverage", "path", "classify"}) {
     std::istringstream lines(run(folder, "help " + command).out);
     for (std::string line; std::getline(lines, line);) {
       const std::size_t begin = line.find("  loft ");

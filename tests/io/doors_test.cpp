@@ -27,6 +27,7 @@
 #include "io/planar/features_geojson.h"
 #include "io/planar/moving_ai.h"
 #include "io/planar/path_queries.h"
+#include "io/planar/point_table.h"
 #include "io/planar/points_csv.h"
 #include "io/planar/polylines_geojson.h"
 #include "io/planar/polylines_text.h"
@@ -236,6 +237,8 @@ TEST(Doors, PolylinesRefuseCoordinatesWithTheirPlaces) {
     const std::string table = "x,y\n0,0\n1," + exact(bad) + "\n";
     expect_named(refusal([&] { static_cast<void>(io::read_points_csv(table, "a.csv")); }),
                  "a.csv:3", bad);
+    expect_named(refusal([&] { static_cast<void>(io::read_point_table_csv(table, "a.csv", {})); }),
+                 "a.csv:3: y", bad);
   }
   for (const double bad : beyond(admitted::planar))
     EXPECT_THROW(cdt::Triangulation().insert(Point{bad, 0}), std::invalid_argument) << bad;
