@@ -112,7 +112,8 @@ void run(const std::string& out) {
   draw(drawing, classes, field);
   drawing.caption("people by age and education");
 
-  // Qualified: above the line; interested in culture: right of it, so left when it goes down.
+  // What is left of a line fulfils it: above the first, which goes to the right, and on the right
+  // of the second, which goes down.
   const std::vector<Point> qualified{{18, 15}, {40, 17}, {60, 22}, {82, 24}};
   const std::vector<Point> interested{{52, 40}, {46, 24}, {40, 12}, {38, 0}};
   const SeparatorId first = classes.insert_separator(qualified);
