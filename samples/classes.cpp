@@ -4,6 +4,7 @@
 // classes classes.svg
 #include "fields/classes.h"
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cstddef>
@@ -69,10 +70,10 @@ std::vector<Colour> colours() {
 /// The sum of both coordinates, from 0 to 1, interpolated over the triangulation.
 Field sums(const std::vector<Point>& points) {
   Field field;
-  std::vector<loft::fields::Sample> samples;
+  std::vector<loft::fields::Sample> all;
   for (const Point p : points)
-    samples.push_back({p, (p.x - shown.low.x + p.y) / (shown.high.x - shown.low.x + shown.high.y)});
-  field.insert(samples);
+    all.push_back({p, (p.x - shown.low.x + p.y) / (shown.high.x - shown.low.x + shown.high.y)});
+  field.insert(all);
   return field;
 }
 
