@@ -72,4 +72,12 @@ if(TARGET make_stacks)
   endforeach()
   add_test(NAME samples.surface_from_circles COMMAND surface_from_circles vase.glb
     WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  add_test(NAME samples.skull_slices COMMAND skull_slices ${root}/samples/data/skull.ndjson
+    skull_slices.svg WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  foreach(sample agents classes figures gasket moving_agents moving_shapes room terrain town)
+    add_test(NAME samples.${sample} COMMAND ${sample} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  endforeach()
+  # A rectangle that has passed two triangles has left no crossing behind.
+  set_tests_properties(samples.figures PROPERTIES PASS_REGULAR_EXPRESSION
+    "10 vertices, 0 of them.*[1-9] of them crossings.*10 vertices, 0 of them")
 endif()
