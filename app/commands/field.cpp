@@ -42,6 +42,7 @@ using fields::Field;
 /// More than that are a mistake, and no picture that anyone looks at.
 constexpr double most_cells = 1e8;
 constexpr std::size_t usual_pixels = 1000;  // across a picture
+constexpr std::size_t usual_levels = 20;
 constexpr std::size_t most_levels = 100'000;
 
 /// What the lines and places are read from, and the samples.
@@ -175,9 +176,10 @@ std::vector<double> round_levels(const Range& range, std::size_t count) {
   const double gap = (range.most / 2 - range.least / 2) / static_cast<double>(count) * 2;
   if (!(gap > 0) || !std::isfinite(gap)) return levels;
   const double power = std::pow(10, std::floor(std::log10(gap)));
-  double step = 10 * power;
-  for (const double times : {5.0, 2.0, 1.0})
-    if (times * power >= gap) step = times * power;
+  double step = power;
+  for (const double times : {2.0, 5.0, 10.0})
+    if (std::abs(std::log(times * power / gap)) < std::abs(std::log(step / gap)))
+      step = times * power;
   // As multiples, so that they are as round as they can be.
   for (double i = std::floor(range.least / step) + 1; i * step < range.most; ++i)
     levels.push_back(i * step);
@@ -185,7 +187,7 @@ std::vector<double> round_levels(const Range& range, std::size_t count) {
 }
 
 std::vector<double> levels_of(const FieldCommand& command, const Range& range) {
-  if (command.levels.empty()) return round_levels(range, command.isolines.value_or(10));
+  if (command.levels.empty()) return round_levels(range, command.isolines.value_or(usual_levels));
   std::vector<double> levels = command.levels;
   std::ranges::sort(levels);
   const auto rest = std::ranges::unique(levels);

@@ -299,7 +299,8 @@ CLI::App* add_classify(CLI::App& app, ClassifyCommand& command) {
 
 CLI::App* add_field(CLI::App& app, FieldCommand& command) {
   CLI::App* sub = app.add_subcommand(
-      "field", "Lay a surface through values at points and along lines, and ask it: heights, rain");
+      "field",
+      "Lay a surface through values at points and along lines: ask it, draw it, measure it");
   sub->add_option(
          "SAMPLES", command.samples,
          "Table of points, " + io::point_table_extensions() +
@@ -334,7 +335,7 @@ CLI::App* add_field(CLI::App& app, FieldCommand& command) {
           ->excludes(at);
   CLI::Option* const isolines =
       sub->add_option("--isolines", command.isolines,
-                      "Isolines at about so many round levels (pictures have 10 without it)")
+                      "Isolines at about so many round levels (pictures have 20 without it)")
           ->type_name("NUMBER")
           ->check(CLI::Range(1, 10'000))
           ->excludes(at)
