@@ -43,7 +43,7 @@ meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
 planar        io/planar/*                    bytes
 session       io/session/*                   stacks
-io            io/{maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf planar session
+io            io/{fields,maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf planar session
 
 words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words
