@@ -4,15 +4,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "io/scenes.h"
 #include "overlay/overlay.h"
 #include "paths/shortest.h"
+#include "samples/drawing.h"
 
 namespace {
 
@@ -24,20 +23,12 @@ using loft::paths::FreeSpace;
 using loft::paths::Path;
 using loft::paths::Query;
 using loft::paths::Status;
+using samples::Dice;
 
 constexpr double width = 160;
 constexpr double height = 100;
 
-/// The same numbers everywhere.
-class Dice {
- public:
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 random_{4};
-};
+;
 
 /// Corners on an ellipse, in the order of their angles: convex.
 Ring convex_polygon(Dice& dice) {
@@ -71,7 +62,7 @@ std::vector<Query> agents(Dice& dice) {
 }
 
 void run(const std::string& out) {
-  Dice dice;
+  Dice dice(4);
   Overlay overlay;
   const LayerId frame = overlay.add_layer("frame");
   const LayerId polygons = overlay.add_layer("polygons", loft::overlay::FillRule::nonzero);
@@ -103,11 +94,4 @@ void run(const std::string& out) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    run(argc > 1 ? argv[1] : "agents.svg");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return samples::run_sample(argc, argv, "agents.svg", run); }

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: MIT
 // A gasket as a tree of operations: a plate less its bore, bolt holes and slots. Then one hole
 // moves until it breaks the rim, and the shape follows: gasket gasket.svg
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <numbers>
 #include <string>
 #include <vector>
 
-#include "io/maps.h"
 #include "overlay/solid.h"
+#include "samples/drawing.h"
 
 namespace {
 
@@ -20,6 +18,9 @@ using loft::overlay::Operation;
 using loft::overlay::Point;
 using loft::overlay::Ring;
 using loft::overlay::Solid;
+using samples::Drawing;
+using samples::fill;
+using samples::stroke;
 
 Ring disc(double radius, int corners = 96) {
   Ring ring;
@@ -79,22 +80,13 @@ NodeId cuts(Solid& solid, NodeId& moved) {
   return solid.combine(Operation::unite, std::move(all));
 }
 
-/// A picture of the gasket beside those before.
-loft::io::Feature picture(const Solid& solid, int number) {
-  const int column = number % 2;
-  const int row = number / 2;
-  const double x = 190.0 * column;
-  const double y = -110.0 * row;
-  loft::io::Feature feature{.polygons = solid.polygons(),
-                            .properties = "{\"name\":\"" + std::to_string(number) + "\"}"};
-  const auto shift = [&](Ring& ring) {
-    for (Point& p : ring) p = {p.x + x, p.y + y};
-  };
-  for (auto& polygon : feature.polygons) {
-    shift(polygon.outer);
-    std::ranges::for_each(polygon.holes, shift);
+std::vector<Ring> rings_of(const Solid& solid) {
+  std::vector<Ring> rings;
+  for (const auto& polygon : solid.polygons()) {
+    rings.push_back(polygon.outer);
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
   }
-  return feature;
+  return rings;
 }
 
 void run(const std::string& path) {
@@ -102,24 +94,25 @@ void run(const std::string& path) {
   NodeId hole;
   const NodeId outside = plate(solid);
   solid.set_root(solid.combine(Operation::subtract, {outside, cuts(solid, hole)}));
-  loft::io::Map map;
+  Drawing drawing(path, "A gasket whose hole moves",
+                  {.shown = {{-90, -48}, {96, 48}}, .columns = 2, .rows = 2});
   for (int i = 0; i < 4; ++i) {
-    solid.set_transform(hole, at(52 + 9 * i, 0));
-    const auto polygons = solid.polygons();
-    std::printf("hole at %d: %.6f square mm, %zu holes\n", 52 + 9 * i, solid.area().to_double(),
-                polygons.front().holes.size());
-    map.features.push_back(picture(solid, i));
+    const int place = 52 + 9 * i;
+    solid.set_transform(hole, at(place, 0));
+    const std::size_t holes = solid.polygons().front().holes.size();
+    std::printf("hole at %d: %.6f square mm, %zu holes\n", place, solid.area().to_double(), holes);
+    drawing.turn_to(i);
+    drawing.area(rings_of(solid),
+                 fill(loft::io::full_tone(7)) + stroke(loft::io::dark_tone(7), 1.6));
+    Ring moved = disc(8);
+    for (Point& p : moved) p.x += place;
+    drawing.area({moved}, stroke(loft::io::dark_tone(6), 2));
+    drawing.caption(std::to_string(holes) + " holes, " +
+                    std::to_string(std::lround(solid.area().to_double())) + " mm\u00b2");
   }
-  loft::io::write(path, map, {.width = 900});
+  drawing.finish();
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    run(argc > 1 ? argv[1] : "gasket.svg");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return samples::run_sample(argc, argv, "gasket.svg", run); }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Drags an island over a border, step by step, and says after each whom it overlaps: Sicily comes
 // to lie on Tunisia and Algeria. island world.geojson island.svg
-#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -14,6 +14,7 @@
 #include "overlay/faces.h"
 #include "overlay/overlay.h"
 #include "overlay/query.h"
+#include "samples/drawing.h"
 
 namespace {
 
@@ -25,6 +26,9 @@ using loft::overlay::Point;
 using loft::overlay::ResultId;
 using loft::overlay::Ring;
 using loft::overlay::RingId;
+using samples::Drawing;
+using samples::fill;
+using samples::stroke;
 
 constexpr Point in_sicily{14, 37.5};
 constexpr Point way{-5.4, -1.6};
@@ -74,30 +78,43 @@ std::map<std::string, loft::overlay::ExactArea> overlaps(const Overlay& overlay)
   return result;
 }
 
-/// The part of the map that is shown, each country, the island, and what is claimed twice.
-loft::io::Map picture(Overlay& overlay) {
+std::vector<Ring> rings_of(const loft::overlay::MultiPolygon& polygons) {
+  std::vector<Ring> rings;
+  for (const auto& polygon : polygons) {
+    rings.push_back(polygon.outer);
+    rings.insert(rings.end(), polygon.holes.begin(), polygon.holes.end());
+  }
+  return rings;
+}
+
+/// The part of the map that is shown: the countries, what is claimed twice, and where the island
+/// came from.
+void draw(Drawing& drawing, Overlay& overlay, const Ring& before) {
+  const Ring box{shown.low, {shown.high.x, shown.low.y}, shown.high, {shown.low.x, shown.high.y}};
+  const std::vector<LayerId> countries = layers_in(overlay, shown);
   const LayerId frame = overlay.add_layer("frame");
-  overlay.insert(
-      frame, Ring{shown.low, {shown.high.x, shown.low.y}, shown.high, {shown.low.x, shown.high.y}});
-  loft::io::Map map;
-  const auto show = [&](const Expression& what, const std::string& name) {
-    map.features.push_back({.polygons = overlay.polygons(overlay.watch(what)),
-                            .properties = "{\"name\":\"" + name + "\"}"});
+  overlay.insert(frame, box);
+  const auto polygons = [&](const Expression& what) {
+    return rings_of(overlay.polygons(overlay.watch(what & frame)));
   };
+  drawing.turn_to(0);
+  drawing.area({box}, fill(loft::io::outside_tone));
   std::vector<Expression> all;
-  for (const LayerId layer : layers_in(overlay, shown))
-    if (layer != frame) all.emplace_back(layer);
-  const Expression twice = at_least(2, all);
-  for (const Expression& one : all)
-    show((one & frame) - twice, overlay.name(one.terms().front().layer));
-  show(twice & frame, "overlap");
-  return map;
+  for (const LayerId layer : countries) {
+    const std::size_t hue = all.size() % loft::io::hue_count;
+    drawing.area(polygons(layer),
+                 fill(loft::io::full_tone(hue)) + stroke(loft::io::dark_tone(hue), 1.2));
+    all.emplace_back(layer);
+  }
+  drawing.area(polygons(at_least(2, all)), fill(loft::io::dark_tone(6)) + "fill-opacity=\"0.75\"");
+  drawing.area({before}, stroke(samples::ink_tone, 1.4) + "stroke-dasharray=\"500 400\"");
 }
 
 void run(const std::string& in, const std::string& out) {
   using Clock = std::chrono::steady_clock;
   Overlay overlay;
   const RingId island = insert_world(overlay, loft::io::read_map(in));
+  const Ring before = overlay.triangulation().points(island);
   std::vector<Expression> all;
   for (std::uint32_t l = 0; l < overlay.layer_count(); ++l) all.emplace_back(LayerId(l));
   const ResultId twice = overlay.watch(at_least(2, all));
@@ -110,7 +127,13 @@ void run(const std::string& in, const std::string& out) {
   }
   for (const auto& [names, area] : overlaps(overlay))
     std::printf("%s: %.9f square degrees\n", names.c_str(), area.to_double());
-  loft::io::write(out, picture(overlay), {.width = 900});
+  Drawing drawing(out, "Sicily is dragged over a border", {.shown = shown});
+  draw(drawing, overlay, before);
+  std::array<char, 64> words{};
+  std::snprintf(words.data(), words.size(), "claimed twice: %.6f square degrees",
+                overlay.area(twice).to_double());
+  drawing.caption(words.data());
+  drawing.finish();
 }
 
 }  // namespace

@@ -5,27 +5,20 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
 #include <numbers>
-#include <random>
 #include <string>
 #include <vector>
 
-#include "io/bytes/atomic_file.h"
 #include "io/planar/palette.h"
 #include "io/planar/path_points.h"
-#include "io/planar/svg_frame.h"
 #include "overlay/overlay.h"
 #include "paths/distance.h"
 #include "paths/planner.h"
+#include "samples/drawing.h"
 
 namespace {
 
 using loft::Colour;
-using loft::io::SvgFrame;
-using loft::io::SvgPath;
-using loft::io::to_hex;
-using loft::io::whole_steps;
 using loft::overlay::LayerId;
 using loft::overlay::Overlay;
 using loft::overlay::Point;
@@ -40,6 +33,10 @@ using loft::paths::Planner;
 using loft::paths::Query;
 using loft::paths::Status;
 using loft::paths::Turn;
+using samples::Dice;
+using samples::Drawing;
+using samples::fill;
+using samples::stroke;
 
 constexpr double width = 160;
 constexpr double height = 100;
@@ -50,16 +47,7 @@ constexpr double pace = 0.75;   // a step
 constexpr int most_steps = 2000;
 constexpr int box_count = 12;
 
-/// The same numbers everywhere.
-class Dice {
- public:
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 random_{9};
-};
+;
 
 struct Box {
   Ring shape{};      // around the origin
@@ -253,7 +241,7 @@ class Room {
     return sum;
   }
 
-  Dice dice_;
+  Dice dice_{9};
   std::vector<Box> boxes_ = random_boxes(dice_);
   Overlay overlay_;
   LayerId frame_ = overlay_.add_layer("frame");
@@ -270,89 +258,28 @@ class Room {
   Microseconds replans_took_{};
 };
 
-/// Four moments, two beside each other; with each, pale, where the boxes were in the one before,
-/// and the way that was meant then.
-class Picture {
- public:
-  explicit Picture(std::ostream& out) : out_(out) {
-    out_ << frame_.opening() << "<title>A room whose boxes move</title>\n"
-         << "<rect width=\"100%\" height=\"100%\" fill=\"" << to_hex(page_tone) << "\"/>\n";
-  }
+constexpr Colour ghost_tone{0xea, 0xea, 0xe8};
+const Colour walked_tone = loft::io::dark_tone(7);
+const Colour left_tone = loft::io::dark_tone(6);
 
-  void draw(const Moment& now, const Moment& before, int number) {
-    const int column = number % 2;
-    const int row = number / 2;
-    shift_ = {(width + gap) * column, (height + gap) * (1 - row)};
-    const std::string outline = stroke(border_tone, 0.8 * pixel);
-    draw_rings({{{0, 0}, {width, 0}, {width, height}, {0, height}}}, outline + fill(free_tone));
-    draw_rings(before.boxes, fill(ghost_tone));
-    draw_rings(now.boxes, outline + fill(box_tone));
-    draw_line(before.left, left_tone, 1.2 * pixel, dashes);
-    draw_way(now.walked, walked_tone);
-    draw_way(now.left, left_tone);
-    draw_dot(goal, left_tone, 7 * pixel);
-    draw_dot(start, walked_tone, 7 * pixel);
-    draw_dot(now.walked.back(), left_tone, frame_.length(2 * radius));
-  }
+/// The line, and what the agent sweeps.
+void draw_way(Drawing& drawing, const std::vector<Point>& points, Colour tone) {
+  drawing.line(points, stroke(tone, drawing.pixels(2 * radius)) + "stroke-opacity=\"0.2\"");
+  drawing.line(points, stroke(tone, 1.8));
+}
 
-  void finish() { out_ << "</svg>\n"; }
-
- private:
-  static constexpr double pixel = SvgFrame::steps_per_pixel;
-  static constexpr double gap = 6;  // between two moments
-  static constexpr const char* dashes = "stroke-opacity=\"0.5\" stroke-dasharray=\"300 400\"";
-  static constexpr Colour page_tone{0xff, 0xff, 0xff};
-  static constexpr Colour free_tone{0xfb, 0xfa, 0xf6};
-  static constexpr Colour ghost_tone{0xea, 0xea, 0xe8};
-  static constexpr Colour box_tone{0xc9, 0xcf, 0xd6};
-  static constexpr Colour border_tone{0x7d, 0x87, 0x93};
-  static constexpr Colour walked_tone{0x37, 0x5c, 0xa0};
-  static constexpr Colour left_tone{0xa8, 0x3c, 0x34};
-
-  static std::string fill(Colour tone) { return "fill=\"" + to_hex(tone) + "\" "; }
-  static std::string stroke(Colour tone, double across) {
-    return "stroke=\"" + to_hex(tone) + "\" stroke-width=\"" + whole_steps(across) + "\" ";
-  }
-
-  [[nodiscard]] loft::io::GridPoint place(Point p) const {
-    return frame_({p.x + shift_.x, p.y + shift_.y});
-  }
-
-  void draw_rings(const std::vector<Ring>& rings, const std::string& attributes) {
-    SvgPath path;
-    for (const Ring& ring : rings) {
-      std::vector<loft::io::GridPoint> places;
-      for (const Point p : ring) places.push_back(place(p));
-      path.loop(places);
-    }
-    path.write(out_, attributes);
-  }
-
-  /// The line, and what the agent sweeps.
-  void draw_way(const std::vector<Point>& points, Colour tone) {
-    draw_line(points, tone, frame_.length(2 * radius), "stroke-opacity=\"0.2\"");
-    draw_line(points, tone, 1.8 * pixel);
-  }
-
-  void draw_line(const std::vector<Point>& points, Colour tone, double across,
-                 const std::string& attributes = "") {
-    if (points.size() < 2) return;
-    SvgPath path;
-    path.move(place(points.front()));
-    for (const Point p : points) path.line(place(p));
-    path.write(out_, stroke(tone, across) + attributes);
-  }
-
-  void draw_dot(Point p, Colour tone, double across) {
-    SvgPath path;
-    path.dot(place(p));
-    path.write(out_, stroke(tone, across));
-  }
-
-  std::ostream& out_;
-  SvgFrame frame_{{{0, 0}, {2 * width + gap, 2 * height + gap}}, 900};
-  Point shift_{};
-};
+/// With it, pale, where the boxes were in the moment before, and the way that was meant then.
+void draw(Drawing& drawing, const Moment& now, const Moment& before) {
+  drawing.area(before.boxes, fill(ghost_tone));
+  drawing.area(now.boxes, stroke(samples::border_tone, 0.8) + fill(samples::solid_tone));
+  drawing.line(before.left,
+               stroke(left_tone, 1.2) + "stroke-opacity=\"0.5\" stroke-dasharray=\"300 400\"");
+  draw_way(drawing, now.walked, walked_tone);
+  draw_way(drawing, now.left, left_tone);
+  drawing.dots({goal}, left_tone, 7);
+  drawing.dots({start}, walked_tone, 7);
+  drawing.dots({now.walked.back()}, left_tone, drawing.pixels(2 * radius));
+}
 
 void run(const std::string& out) {
   Room room;
@@ -363,25 +290,18 @@ void run(const std::string& out) {
   }
   room.report();
 
-  loft::io::AtomicFile file(out);
-  Picture picture(file.stream());
+  Drawing drawing(out, "A room whose boxes move",
+                  {.shown = {{0, 0}, {width, height}}, .columns = 2, .rows = 2, .caption_size = 0});
   std::size_t before = 0;
   for (int i = 0; i < 4; ++i) {
     const std::size_t now = (moments.size() - 1) * 3 * static_cast<std::size_t>(i) / 10;
-    picture.draw(moments[now], moments[before], i);
+    drawing.turn_to(i);
+    draw(drawing, moments[now], moments[before]);
     before = now;
   }
-  picture.finish();
-  file.commit();
+  drawing.finish();
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    run(argc > 1 ? argv[1] : "room.svg");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return samples::run_sample(argc, argv, "room.svg", run); }

@@ -4,14 +4,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <exception>
-#include <random>
 #include <string>
 #include <vector>
 
 #include "io/scenes.h"
 #include "overlay/overlay.h"
 #include "paths/shortest.h"
+#include "samples/drawing.h"
 
 namespace {
 
@@ -23,22 +22,14 @@ using loft::paths::FreeSpace;
 using loft::paths::Path;
 using loft::paths::Query;
 using loft::paths::Status;
+using samples::Dice;
 
 constexpr double width = 250;
 constexpr double height = 156;
 constexpr Point from{5.5, 5.5};
 constexpr Point to{244, 150};
 
-/// The same numbers everywhere.
-class Dice {
- public:
-  double between(double low, double high) {
-    return low + (high - low) * static_cast<double>(random_() >> 11U) * 0x1p-53;
-  }
-
- private:
-  std::mt19937_64 random_{7};
-};
+;
 
 /// A house around a place, turned; some have a yard cut out of a corner.
 Ring house(Point place, double across, double deep, double angle, bool has_yard) {
@@ -56,7 +47,7 @@ Ring house(Point place, double across, double deep, double angle, bool has_yard)
 std::vector<Ring> houses() {
   constexpr int columns = 10;
   constexpr int rows = 6;
-  Dice dice;
+  Dice dice(7);
   std::vector<Ring> rings;
   for (int row = 0; row < rows; ++row) {
     const int streets_below = row / 3;
@@ -102,11 +93,4 @@ void run(const std::string& out) {
 
 }  // namespace
 
-int main(int argc, char** argv) {
-  try {
-    run(argc > 1 ? argv[1] : "town.svg");
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "%s\n", error.what());
-    return 1;
-  }
-}
+int main(int argc, char** argv) { return samples::run_sample(argc, argv, "town.svg", run); }

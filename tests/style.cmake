@@ -28,6 +28,7 @@ readme_example(loft README.md loft::io)
 readme_example(cdt cdt/README.md loft::cdt)
 readme_example(overlay overlay/README.md loft::overlay)
 readme_example(paths paths/README.md loft::paths)
+readme_example(fields fields/README.md loft::fields)
 
 # A project that uses loft builds and runs: with loft installed, and with loft as a subdirectory
 # (its lowest layer only; the others would all be compiled again).
@@ -50,7 +51,8 @@ test_consumer(subdirectory plane -DLOFT_FOLDER=${root})
 test_consumer(headers all_headers -DCMAKE_PREFIX_PATH=${prefix})
 test_consumer(pkg_config solid -DCMAKE_PREFIX_PATH=${prefix} -DLOFT_PKG_CONFIG=ON)
 test_consumer(paths ways -DCMAKE_PREFIX_PATH=${prefix} -DLOFT_COMPONENT=paths)
-set_tests_properties(install.find_package install.paths install.headers install.pkg_config PROPERTIES FIXTURES_REQUIRED installed)
+test_consumer(fields values -DCMAKE_PREFIX_PATH=${prefix} -DLOFT_COMPONENT=fields)
+set_tests_properties(install.find_package install.paths install.fields install.headers install.pkg_config PROPERTIES FIXTURES_REQUIRED installed)
 
 # The manual page, the completions and the licence are where they are looked for, and right.
 if(TARGET loft_documents)
@@ -72,4 +74,12 @@ if(TARGET make_stacks)
   endforeach()
   add_test(NAME samples.surface_from_circles COMMAND surface_from_circles vase.glb
     WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  add_test(NAME samples.skull_slices COMMAND skull_slices ${root}/samples/data/skull.ndjson
+    skull_slices.svg WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  foreach(sample agents classes figures gasket moving_agents moving_shapes room terrain town)
+    add_test(NAME samples.${sample} COMMAND ${sample} WORKING_DIRECTORY ${CMAKE_CURRENT_BINARY_DIR})
+  endforeach()
+  # A rectangle that has passed two triangles has left no crossing behind.
+  set_tests_properties(samples.figures PROPERTIES PASS_REGULAR_EXPRESSION
+    "10 vertices, 0 of them.*[1-9] of them crossings.*10 vertices, 0 of them")
 endif()

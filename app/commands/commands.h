@@ -11,6 +11,7 @@
 
 #include "app/exit_code.h"
 #include "cdt/point.h"
+#include "fields/field.h"
 #include "io/planar/svg.h"
 #include "io/stack.h"
 #include "overlay/coverage.h"
@@ -82,6 +83,35 @@ struct ClassifyCommand {
   std::filesystem::path separators;
   std::vector<std::filesystem::path> outputs;
   std::optional<std::string> value;  ///< a column; not given: value, z or weight, if there is one
+  io::SvgOptions drawing;
+  bool json = false;
+  bool quiet = false;
+};
+
+/// Columns and rows.
+struct GridSize {
+  std::size_t columns = 0;
+  std::size_t rows = 0;
+};
+
+/// `loft field SAMPLES [--lines FILE] [--at FILE | --profile FILE | --isolines N] ...`
+struct FieldCommand {
+  std::filesystem::path samples;
+  std::optional<std::string> value;  ///< a column; not given: value, z, height or elevation
+  std::optional<std::filesystem::path> lines;
+  fields::OnConflict on_conflict = fields::OnConflict::mean;
+  fields::Smoothness smoothness = fields::Smoothness::linear;
+  fields::Outside outside = fields::Outside::nothing;
+  std::optional<std::filesystem::path> at;       ///< places
+  std::optional<std::filesystem::path> profile;  ///< lines
+  std::optional<std::size_t> isolines;           ///< about so many levels
+  std::vector<double> levels;                    ///< these, if there are any
+  bool bands = false;                            ///< polygons between levels, instead of lines
+  std::optional<GridSize> grid;                  ///< at most; cells are square
+  std::optional<double> cell;                    ///< their width
+  std::optional<double> level;                   ///< volumes over and under it
+  std::vector<std::filesystem::path> outputs;
+  bool triangles = false;  ///< drawn, too
   io::SvgOptions drawing;
   bool json = false;
   bool quiet = false;
@@ -219,6 +249,7 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const OverlayCommand& command);
 [[nodiscard]] ExitCode run(const QueryCommand& command);
 [[nodiscard]] ExitCode run(const ClassifyCommand& command);
+[[nodiscard]] ExitCode run(const FieldCommand& command);
 [[nodiscard]] ExitCode run(const CoverageCommand& command);
 [[nodiscard]] ExitCode run(const PathCommand& command);
 [[nodiscard]] ExitCode run(const CheckCommand& command);

@@ -520,6 +520,7 @@ CommandLine::CommandLine()
   when(add_query(app_, query_), [this] { return run_at_once(query_); });
   when(add_path(app_, path_), [this] { return run_at_once(path_); });
   when(add_classify(app_, classify_), [this] { return run_at_once(classify_); });
+  when(add_field(app_, field_), [this] { return run_at_once(field_); });
   when(add_check(app_, check_), [this] { return run_at_once(check_); });
   when(add_convert(app_, convert_), [this] { return run_at_once(convert_); });
   when(add_slice(app_, slice_), [this] {

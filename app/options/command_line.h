@@ -37,6 +37,7 @@ class CommandLine {
   QueryCommand query_;
   PathCommand path_;
   ClassifyCommand classify_;
+  FieldCommand field_;
   CheckCommand check_;
   InfoCommand info_;
   ConvertCommand convert_;

@@ -3,7 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <charconv>
+#include <cmath>
 #include <cstddef>
+#include <string_view>
+#include <system_error>
 
 #include "io/unit.h"
 #include "mesh/admitted.h"
@@ -68,6 +72,31 @@ std::optional<cdt::Point> place(const std::string& text) {
   const auto [x, y] = *numbers;
   if (!admitted::planar.admits(x) || !admitted::planar.admits(y)) return {};
   return cdt::Point{x, y};
+}
+
+std::optional<GridSize> grid_size(const std::string& text) {
+  const std::size_t cross = text.find('x');
+  if (cross == std::string::npos) return {};
+  GridSize size;
+  const auto read = [](std::string_view digits, std::size_t& number) {
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), number);
+    return error == std::errc() && end == digits.data() + digits.size() && number > 0;
+  };
+  const std::string_view all = text;
+  if (!read(all.substr(0, cross), size.columns) || !read(all.substr(cross + 1), size.rows))
+    return {};
+  return size;
+}
+
+std::string complain_of_grid_size(const std::string& text) {
+  if (grid_size(text)) return {};
+  return "'" + text + "' is no size; give columns and rows as 1000x800";
+}
+
+std::string complain_of_value(const std::string& text) {
+  double value = 0;
+  if (CLI::detail::lexical_cast(text, value) && std::isfinite(value)) return {};
+  return "'" + text + "' is no number";
 }
 
 std::string complain_of_place(const std::string& text) {

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "app/commands/commands.h"
 #include "cdt/point.h"
 #include "mesh/mesh.h"
 
@@ -19,6 +20,9 @@ namespace loft::app {
 [[nodiscard]] std::string complain_of_rate(const std::string& text);
 [[nodiscard]] std::string complain_of_spacing(const std::string& text);
 
+/// A finite number.
+[[nodiscard]] std::string complain_of_value(const std::string& text);
+[[nodiscard]] std::string complain_of_grid_size(const std::string& text);
 [[nodiscard]] std::string complain_of_place(const std::string& text);
 [[nodiscard]] std::string complain_of_direction(const std::string& text);
 
@@ -26,6 +30,8 @@ namespace loft::app {
 [[nodiscard]] std::optional<Vec3> spacing(const std::string& text);
 /// Two coordinates that a triangulation takes.
 [[nodiscard]] std::optional<cdt::Point> place(const std::string& text);
+/// Columns and rows, `1000x800`; none if the text is anything else.
+[[nodiscard]] std::optional<GridSize> grid_size(const std::string& text);
 /// Three numbers, not all 0.
 [[nodiscard]] std::optional<Vec3> direction(const std::string& text);
 

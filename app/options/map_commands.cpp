@@ -7,6 +7,7 @@
 
 #include "app/options/complaints.h"
 #include "app/options/shared_options.h"
+#include "io/fields.h"
 #include "io/maps.h"
 #include "io/points.h"
 #include "io/scenes.h"
@@ -49,6 +50,18 @@ void add_fill_option(CLI::App& sub, overlay::FillRule& fill) {
          "counter-clockwise (positive) or clockwise (negative)")
       ->type_name("RULE")
       ->check(CLI::IsMember({"evenodd", "nonzero", "positive", "negative"}, without_hyphens));
+}
+
+void add_conflict_option(CLI::App& sub, fields::OnConflict& on_conflict) {
+  using fields::OnConflict;
+  static const std::map<std::string, OnConflict> ways{
+      {"mean", OnConflict::mean}, {"first", OnConflict::first}, {"refuse", OnConflict::refuse}};
+  sub.add_option_function<std::string>(
+         "--on-conflict", [&on_conflict](const std::string& way) { on_conflict = ways.at(way); },
+         "What becomes of different values at one place: their mean (default), the one that comes "
+         "first, or an error that lists all such places (refuse)")
+      ->type_name("WAY")
+      ->check(CLI::IsMember({"mean", "first", "refuse"}));
 }
 
 }  // namespace
@@ -281,6 +294,102 @@ CLI::App* add_classify(CLI::App& app, ClassifyCommand& command) {
       "Examples:\n"
       "  loft classify people.csv --separators criteria.geojson -o classes.csv -o classes.svg\n"
       "  loft classify samples.csv --separators faults.geojson --value height --json");
+  return sub;
+}
+
+CLI::App* add_field(CLI::App& app, FieldCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "field",
+      "Lay a surface through values at points and along lines: ask it, draw it, measure it");
+  sub->add_option(
+         "SAMPLES", command.samples,
+         "Table of points, " + io::point_table_extensions() +
+             ", or - for standard input: columns x and y, or lon and lat, or the first two")
+      ->required();
+  sub->add_option("--value", command.value,
+                  "The column with the values (default: value, z, height or elevation; without a "
+                  "header the third)")
+      ->type_name("NAME");
+  sub->add_option("--lines", command.lines,
+                  "Lines, " + io::field_line_extensions() +
+                      ": a property kind is feature, soft, wall or barrier, see below")
+      ->type_name("FILE");
+  add_conflict_option(*sub, command.on_conflict);
+  sub->add_flag_callback(
+      "--smooth", [&command] { command.smoothness = fields::Smoothness::cubic; },
+      "Bend the surface smoothly (cubic) but at features, walls and barriers; isolines, bands, "
+      "volumes and .ply are of the flat triangles");
+  sub->add_flag_callback(
+      "--nearest", [&command] { command.outside = fields::Outside::nearest; },
+      "Beyond all samples, --at has the value of the nearest place of the surface, not none");
+  begin_group(*sub, "Questions");
+  CLI::Option* const at =
+      sub->add_option("--at", command.at,
+                      "Places to ask at, a table, " + io::point_table_extensions())
+          ->type_name("FILE");
+  CLI::Option* const profile =
+      sub->add_option("--profile", command.profile,
+                      "Lines to go along, " + io::map_extensions() +
+                          ": the values wherever they cross an edge of a triangle")
+          ->type_name("FILE")
+          ->excludes(at);
+  CLI::Option* const isolines =
+      sub->add_option("--isolines", command.isolines,
+                      "Isolines at about so many round levels (pictures have 20 without it)")
+          ->type_name("NUMBER")
+          ->check(CLI::Range(1, 10'000))
+          ->excludes(at)
+          ->excludes(profile);
+  sub->add_option("--levels", command.levels,
+                  "Isolines at these levels instead, with commas between")
+      ->type_name("LEVEL,...")
+      ->delimiter(',')
+      ->check(CLI::Validator(complain_of_value, ""))
+      ->excludes(isolines)
+      ->excludes(at)
+      ->excludes(profile);
+  sub->add_flag("--bands", command.bands, "The polygons between the levels instead of the lines");
+  sub->add_option("--level", command.level, "Tell the volume over that level and under it")
+      ->type_name("LEVEL")
+      ->check(CLI::Validator(complain_of_value, ""));
+  begin_group(*sub, map_results);
+  sub->add_option(
+         "-o,--output", command.outputs,
+         "Output file: .csv, the table of --at or --profile; .geojson .json, its points, or "
+         "isolines or bands; " +
+             io::field_output_extensions() +
+             ", a grid of values, the surface, pictures; may be repeated; the table on "
+             "standard output without it")
+      ->type_name("OUT")
+      ->allow_extra_args(false);
+  CLI::Option* const grid =
+      sub->add_option_function<std::string>(
+             "--grid", [&command](const std::string& text) { command.grid = grid_size(text); },
+             "Of .asc and .png: at most so many columns and rows, default of .png 1000x1000")
+          ->type_name("COLUMNSxROWS")
+          ->check(CLI::Validator(complain_of_grid_size, ""));
+  sub->add_option("--cell", command.cell, "Or cells of that width")
+      ->type_name("LENGTH")
+      ->check(CLI::Validator(complain_of_distance, ""))
+      ->excludes(grid);
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_width_option(*sub, command.drawing);
+  sub->add_flag("--triangles", command.triangles, "Draw the triangles, too");
+  sub->footer(
+      "Lines: a feature has a value at each point (third coordinates, or the property values, a\n"
+      "number or a list) and makes a crease; a soft line lies on the surface that is there "
+      "without\n"
+      "it; a wall has the properties left and right, and the surface jumps; nothing crosses a\n"
+      "barrier: each side is as if the other one's values were not there. Without kind, lines "
+      "with\n"
+      "left and right are walls, those with values features, others soft.\n\n"
+      "Examples:\n"
+      "  loft field heights.csv --lines faults.geojson -o ground.svg -o ground.ply\n"
+      "  loft field heights.csv --at wells.csv --smooth -o wells-with-heights.csv\n"
+      "  loft field heights.csv --profile road.geojson -o profile.csv\n"
+      "  loft field rain.csv --cell 250 --smooth -o rain.asc -o rain.png\n"
+      "  loft field heights.csv --levels 100,200,300 --bands -o bands.geojson --level 150");
   return sub;
 }
 

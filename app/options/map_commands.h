@@ -13,5 +13,6 @@ CLI::App* add_coverage(CLI::App& app, CoverageCommand& command);
 CLI::App* add_query(CLI::App& app, QueryCommand& command);
 CLI::App* add_path(CLI::App& app, PathCommand& command);
 CLI::App* add_classify(CLI::App& app, ClassifyCommand& command);
+CLI::App* add_field(CLI::App& app, FieldCommand& command);
 
 }  // namespace loft::app

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: MIT
 #include "io/planar/palette.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 namespace loft::io {
@@ -42,6 +44,21 @@ Colour mixed(Colour from, Colour to, double share) {
     return static_cast<std::uint8_t>(std::lround(a + share * (b - a)));
   };
   return {mix(from.red, to.red), mix(from.green, to.green), mix(from.blue, to.blue)};
+}
+
+Colour value_colour(double share) {
+  constexpr std::array<Colour, 9> viridis{{{0x44, 0x01, 0x54},
+                                           {0x47, 0x2d, 0x7b},
+                                           {0x3b, 0x52, 0x8b},
+                                           {0x2c, 0x72, 0x8e},
+                                           {0x21, 0x91, 0x8c},
+                                           {0x28, 0xae, 0x80},
+                                           {0x5e, 0xc9, 0x62},
+                                           {0xad, 0xdc, 0x30},
+                                           {0xfd, 0xe7, 0x25}}};
+  const double place = std::clamp(share, 0.0, 1.0) * 8;
+  const auto low = std::min<std::size_t>(static_cast<std::size_t>(place), 7);
+  return mixed(viridis[low], viridis[low + 1], place - static_cast<double>(low));
 }
 
 Colour full_tone(std::size_t hue) { return palette_hues[hue].full; }

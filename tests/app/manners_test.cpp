@@ -84,7 +84,7 @@ TEST(Manners, ExamplesInHelpUseOptionsThatAreThere) {
   std::size_t options = 0;
   for (const std::string command :
        {"", "reconstruct", "convert", "slice", "info", "check", "stream", "view", "overlay",
-        "query", "coverage", "path", "classify"}) {
+        "query", "coverage", "path", "classify", "field"}) {
     std::istringstream lines(run(folder, "help " + command).out);
     for (std::string line; std::getline(lines, line);) {
       const std::size_t begin = line.find("  loft ");

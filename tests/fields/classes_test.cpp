@@ -18,14 +18,13 @@
 namespace loft::fields {
 namespace {
 
-using ::testing::ElementsAre;
-using testing::Ground;
-using ::testing::HasSubstr;
+using testing::ElementsAre;
+using testing::HasSubstr;
 
 using Signs = std::vector<Sign>;
-constexpr Sign left = Sign::left;
-constexpr Sign on = Sign::on;
-constexpr Sign right = Sign::right;
+constexpr Sign to_left = Sign::left;
+constexpr Sign on_it = Sign::on;
+constexpr Sign to_right = Sign::right;
 
 Signs signs_of(const Classes& classes, PointId id) {
   const auto signs = classes.signs(id);
@@ -55,7 +54,7 @@ class SlowClasses {
 /// One edit of both, at random.
 class Editor {
  public:
-  Editor(std::uint64_t seed, Ground ground) : random_(seed), ground_(ground) {}
+  Editor(std::uint64_t seed, PointGround ground) : random_(seed), ground_(ground) {}
 
   void edit() {
     switch (random_() % 10) {
@@ -88,7 +87,7 @@ class Editor {
   void insert_point() {
     std::vector<Point> points;
     for (std::size_t i = random_() % 8; i <= 8; ++i)
-      points.push_back(testing::random_point(random_, ground_));
+      points.push_back(random_place(random_, ground_));
     const auto ids = fast.insert(points);
     for (std::size_t i = 0; i < ids.size(); ++i) slow.points[ids[i]] = points[i];
   }
@@ -101,13 +100,13 @@ class Editor {
   void move_point() {
     if (slow.points.empty()) return insert_point();
     const PointId id = any_of(slow.points);
-    const Point to = testing::random_point(random_, ground_);
+    const Point to = random_place(random_, ground_);
     fast.move(id, to);
     slow.points[id] = to;
   }
   void insert_separator() {
     if (slow.separators.size() > 3) return remove_separator();
-    auto line = testing::random_line(random_, ground_);
+    auto line = random_separator(random_, ground_);
     // Equal ones, too.
     if (!slow.separators.empty() && random_() % 4 == 0)
       line = slow.separators[any_of(slow.separators)];
@@ -136,10 +135,10 @@ class Editor {
     const SeparatorId id = any_of(slow.separators);
     std::vector<Point> line = slow.separators[id];
     const auto at = line.begin() + static_cast<std::ptrdiff_t>(random_() % line.size());
-    const Point p = testing::random_point(random_, ground_);
+    const Point p = random_place(random_, ground_);
     const auto what = random_() % 6;
     if (what == 0)
-      line = testing::random_line(random_, ground_);
+      line = random_separator(random_, ground_);
     else if (what == 1 && line.size() > 2)
       line.erase(at);
     else if (what == 2 && line.size() < 60)
@@ -152,11 +151,11 @@ class Editor {
   }
 
   std::mt19937_64 random_;
-  Ground ground_;
+  PointGround ground_;
 };
 
 TEST(Classes, AreWhatEachSeparatorSays) {
-  for (const Ground ground : testing::grounds)
+  for (const PointGround ground : point_grounds)
     for (std::uint64_t seed = 0; seed < cases(60); ++seed) {
       SCOPED_TRACE("ground " + std::to_string(static_cast<int>(ground)) + ", seed " +
                    std::to_string(seed));
@@ -184,7 +183,7 @@ TEST(Classes, AreWhatEachSeparatorSays) {
 }
 
 TEST(Classes, AreCountedAsInAFreshBuild) {
-  for (const Ground ground : testing::grounds)
+  for (const PointGround ground : point_grounds)
     for (std::uint64_t seed = 0; seed < cases(20); ++seed) {
       SCOPED_TRACE("ground " + std::to_string(static_cast<int>(ground)) + ", seed " +
                    std::to_string(seed));
@@ -225,7 +224,7 @@ TEST(Classes, FacesFillABoxAndHaveTheSignsOfTheirPlaces) {
     std::mt19937_64 random(seed);
     Classes classes;
     for (int i = 0; i < 3; ++i)
-      classes.insert_separator(testing::random_line(random, Ground::grid));
+      classes.insert_separator(random_separator(random, PointGround::grid));
     const std::vector<ClassFace> faces = classes.faces({{-6, -4}, {5, 7}});
     double area = 0;
     for (const ClassFace& face : faces) area += overlay::area(face.polygon).to_double();
@@ -247,9 +246,9 @@ TEST(Classes, KnowPointsOnASeparatorItsVertexAndItsEnds) {
       std::vector<Point>{{0, 0}, {1, 0}, {-7, 0}, {2, 1}, {5, 4}, {0, 3}, {0, -3}, {1, 0}});
   const SeparatorId line = classes.insert_separator(std::vector<Point>{{0, 0}, {1, 0}, {2, 1}});
   EXPECT_EQ(classes.changed().size(), 8U);
-  for (const std::size_t i : {0, 1, 2, 3, 4, 7}) EXPECT_EQ(classes.sign(ids[i], line), on) << i;
-  EXPECT_EQ(classes.sign(ids[5], line), left);
-  EXPECT_EQ(classes.sign(ids[6], line), right);
+  for (const std::size_t i : {0U, 1U, 2U, 3U, 4U, 7U}) EXPECT_EQ(classes.sign(ids[i], line), on_it) << i;
+  EXPECT_EQ(classes.sign(ids[5], line), to_left);
+  EXPECT_EQ(classes.sign(ids[6], line), to_right);
   classes.move(line, std::vector<Point>{{0, 0}, {1, 0}, {2, 0}});
   EXPECT_EQ(changed_in(classes), (std::vector<PointId>{ids[3], ids[4]}));
 }
@@ -262,18 +261,18 @@ TEST(Classes, KnowEqualAndCrossingSeparators) {
   const SeparatorId first = classes.insert_separator(across);
   const SeparatorId second = classes.insert_separator(across);
   classes.insert_separator(std::vector<Point>{{0, 0}, {0, 1}});
-  EXPECT_EQ(signs_of(classes, point), (Signs{left, left, right}));
+  EXPECT_EQ(signs_of(classes, point), (Signs{to_left, to_left, to_right}));
   classes.translate(first, {0, 2});
-  EXPECT_EQ(signs_of(classes, point), (Signs{right, left, right}));
+  EXPECT_EQ(signs_of(classes, point), (Signs{to_right, to_left, to_right}));
   EXPECT_THAT(changed_in(classes), ElementsAre(point));
   classes.translate(second, {0, 0.5});
   EXPECT_TRUE(classes.changed().empty());
   classes.remove(first);
-  EXPECT_EQ(signs_of(classes, point), (Signs{left, right}));
+  EXPECT_EQ(signs_of(classes, point), (Signs{to_left, to_right}));
   EXPECT_EQ(classes.insert_separator(across), first);
   EXPECT_EQ(classes.separators().size(), 3U);
-  EXPECT_EQ(classes.signs(Point{0, 0}), (Signs{on, right, on}));
-  EXPECT_EQ(classes.classes(), (std::vector<ClassCount>{{{left, left, right}, 1}}));
+  EXPECT_EQ(classes.signs(Point{0, 0}), (Signs{on_it, to_right, on_it}));
+  EXPECT_EQ(classes.classes(), (std::vector<ClassCount>{{{to_left, to_left, to_right}, 1}}));
   EXPECT_EQ(classes.value(point), 7);
   classes.set_value(point, 8);
   EXPECT_EQ(classes.value(point), 8);
@@ -328,8 +327,8 @@ TEST(Classes, CopiesAreIndependent) {
   const SeparatorId line = classes.insert_separator(std::vector<Point>{{0, 0}, {1, 0}});
   Classes copy = classes;
   copy.translate(line, {0, 5});
-  EXPECT_EQ(classes.sign(point, line), left);
-  EXPECT_EQ(copy.sign(point, line), right);
+  EXPECT_EQ(classes.sign(point, line), to_left);
+  EXPECT_EQ(copy.sign(point, line), to_right);
 }
 
 }  // namespace

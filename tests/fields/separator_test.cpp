@@ -149,8 +149,8 @@ TEST(Separator, AgreesWithTheAnglesOfTheClosedLine) {
   const std::vector<Point> all = places();
   for (std::uint64_t seed = 0; seed < cases(400); ++seed) {
     std::mt19937_64 random(seed);
-    const std::vector<Point> points = testing::random_line(random, testing::Ground::grid);
-    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + ::testing::PrintToString(points));
+    const std::vector<Point> points = random_separator(random, PointGround::grid);
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + testing::PrintToString(points));
     const Separator fast(points);
     const SlowSeparator slow(points);
     for (const Point& p : all) ASSERT_EQ(fast.sign(p), slow.sign(p)) << p;
@@ -161,9 +161,9 @@ TEST(Separator, HasLeftAndRightExchangedTheOtherWay) {
   const std::vector<Point> all = places();
   for (std::uint64_t seed = 0; seed < cases(400); ++seed) {
     std::mt19937_64 random(seed);
-    std::vector<Point> points = testing::random_line(random, testing::Ground::grid);
+    std::vector<Point> points = random_separator(random, PointGround::grid);
     if (has_ends_on_one_another(points)) continue;
-    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + ::testing::PrintToString(points));
+    SCOPED_TRACE("seed " + std::to_string(seed) + ": " + testing::PrintToString(points));
     const Separator one(points);
     std::ranges::reverse(points);
     const Separator other(points);
@@ -182,7 +182,7 @@ std::string complaint(const std::vector<Point>& points) {
 }
 
 TEST(Separator, RefusesWhatHasNoDirection) {
-  using ::testing::HasSubstr;
+  using testing::HasSubstr;
   EXPECT_THAT(complaint({}), HasSubstr("has 0 points and needs two"));
   EXPECT_THAT(complaint({{1, 2}}), HasSubstr("has 1 point and needs two"));
   EXPECT_THAT(complaint({{1, 2}, {3, 4}, {3, 4}}),
