@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <thread>
@@ -10,11 +11,13 @@
 #include "app/commands/commands.h"
 #include "app/exit_code.h"
 #include "app/interrupt.h"
+#include "app/json.h"
 #include "app/live/live_server.h"
 #include "app/live/scenes.h"
 #include "app/terminal.h"
 #include "io/bytes/file.h"
 #include "io/scenes.h"
+#include "io/tables.h"
 
 namespace loft::app {
 
@@ -26,8 +29,32 @@ struct LiveScene {
   std::string tab;
 };
 
+bool is_point_table(const std::filesystem::path& file) {
+  const std::string known = io::point_table_extensions() + ' ';
+  return known.find(io::extension(file) + ' ') != std::string::npos;
+}
+
+/// Points in rows as features, with their values as a property.
+io::Map read_points_as_map(const std::filesystem::path& file) {
+  const std::vector<io::WantedColumn> wanted{{{"value", "z", "height", "weight"}, false}};
+  const io::PointTable table = io::read_point_table(file, wanted);
+  const auto& values = table.values().front();
+  io::Map map;
+  for (std::size_t i = 0; i < table.points().size(); ++i) {
+    io::Feature& feature = map.features.emplace_back();
+    feature.points.push_back(table.points()[i]);
+    if (values) feature.properties = Json{{"value", values->values[i]}}.dump();
+  }
+  return map;
+}
+
+io::Scene read_any_scene(const std::filesystem::path& file) {
+  if (is_point_table(file)) return {.map = read_points_as_map(file)};
+  return io::read_scene(file);
+}
+
 LiveScene opened(const LiveCommand& command) {
-  LiveScene live{io::read_scene(*command.scene), command.tab.value_or("")};
+  LiveScene live{read_any_scene(*command.scene), command.tab.value_or("")};
   std::size_t vertices = 0;
   for (const io::Feature& feature : live.scene.map.features)
     for (const overlay::Polygon& polygon : feature.polygons) vertices += polygon.outer.size();

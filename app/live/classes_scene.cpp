@@ -58,10 +58,13 @@ ClassesScene::ClassesScene() {
 
 ClassesScene::ClassesScene(const io::Map& map) {
   std::vector<Point> points;
-  for (const io::Feature& feature : map.features)
+  std::vector<double> values;
+  for (const io::Feature& feature : map.features) {
     points.insert(points.end(), feature.points.begin(), feature.points.end());
+    values.resize(points.size(), value_of(feature));
+  }
   for (const Point& p : points) box_.add(p);
-  add_points(points, std::vector<double>(points.size()));
+  add_points(points, values);
   for (const io::Feature& feature : map.features) {
     for (const auto& line : feature.lines) {
       if (!has_length(line) || separators_.size() == most_separators) continue;
@@ -186,9 +189,8 @@ void ClassesScene::edit_separator(const Edit& edit, Json& change) {
     change["removed"] = Json::array({*edit.id});
   } else {
     const bool is_move = edit.kind == Edit::Kind::move;
-    measure_edit([&] {
-      move_to(line, is_move ? *edit.at : Point{}, is_move ? line.points : edit.points);
-    });
+    measure_edit(
+        [&] { move_to(line, is_move ? *edit.at : Point{}, is_move ? line.points : edit.points); });
     change["separators"] = Json::array({separator_as_json(*edit.id)});
   }
   change["points"] = changed();

@@ -27,9 +27,7 @@ class ClassesScene : public Scene {
 
   [[nodiscard]] Json state() const override;
   Json apply(const Edit& edit) override;
-  [[nodiscard]] const cdt::Triangulation& mesh() const override {
-    return classes_.triangulation();
-  }
+  [[nodiscard]] const cdt::Triangulation& mesh() const override { return classes_.triangulation(); }
   [[nodiscard]] const fields::Classes& classes() const { return classes_; }
 
  private:

@@ -67,8 +67,7 @@ std::vector<Point> read_points(JsonReader& json, std::size_t most) {
   json.begin_list();
   std::vector<Point> points;
   while (json.next_item()) {
-    if (points.size() == most)
-      throw Refusal(413, "more than " + std::to_string(most) + " points");
+    if (points.size() == most) throw Refusal(413, "more than " + std::to_string(most) + " points");
     points.push_back(read_point(json, "point " + std::to_string(points.size())));
   }
   if (points.empty()) refuse_edit("there is no point");

@@ -2,7 +2,6 @@
 #include "app/live/field_scene.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -28,26 +27,12 @@ constexpr double lake_level = 112;
 double bed(double x) { return 50 + 14 * std::sin(x / 26) + 4 * std::sin(x / 9); }
 double height(Point p) {
   const double aside = std::abs(p.y - bed(p.x));
-  const double hills = 9 * std::sin(p.x / 17 + 1) + 7 * std::cos(p.y / 13) + 5 * std::sin((p.x - p.y) / 11);
+  const double hills =
+      9 * std::sin(p.x / 17 + 1) + 7 * std::cos(p.y / 13) + 5 * std::sin((p.x - p.y) / 11);
   return 120 - 0.35 * p.x + 58 * aside / (aside + 16) + hills * std::min(1.0, aside / 20);
 }
 
 double lake_width(double x) { return x > 50 ? 7 : 5; }
-
-std::optional<double> number_of(const io::Feature& feature, const char* key) {
-  const auto text = io::property(feature, key);
-  if (!text) return {};
-  double value = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(value)) return {};
-  return value;
-}
-
-double value_of(const io::Feature& feature) {
-  for (const char* key : {"value", "z", "height"})
-    if (const auto value = number_of(feature, key)) return *value;
-  return 0;
-}
 
 /// 1, 2 or 5 times a power of ten: some ten steps.
 double nice_step(double range) {
@@ -150,7 +135,7 @@ void FieldScene::add_profile() {
                  box_.low.y + part_y * (box_.high.y - box_.low.y)};
   };
   profile_ = next_++;
-  lines_.emplace(profile_, Line{.kind = LineKind::soft, .points = {at(0.42, 0.05), at(0.7, 0.95)}});
+  lines_.emplace(profile_, Line{.kind = LineKind::soft, .points = {at(0.1, 0.52), at(0.64, 0.67)}});
 }
 
 ItemId FieldScene::add_sample(Point at, double value) {
@@ -183,7 +168,10 @@ Json FieldScene::sample_as_json(ItemId id) const {
 Json FieldScene::line_as_json(ItemId id) const {
   const Line& line = lines_.at(id);
   const std::string kind = line.id ? std::string(fields::name_of(line.kind)) : "profile";
-  return {{"id", id}, {"kind", kind}, {"at", app::as_json(line.at)}, {"points", flat(line.points)},
+  return {{"id", id},
+          {"kind", kind},
+          {"at", app::as_json(line.at)},
+          {"points", flat(line.points)},
           {"is_closed", line.ends == cdt::closed}};
 }
 
@@ -203,7 +191,8 @@ Smoothness FieldScene::smoothness() const {
 
 /// The lowest and the highest value that was given.
 std::pair<double, double> FieldScene::range() const {
-  std::pair range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  std::pair range{std::numeric_limits<double>::infinity(),
+                  -std::numeric_limits<double>::infinity()};
   const auto add = [&](double value) {
     range = {std::min(range.first, value), std::max(range.second, value)};
   };
@@ -275,8 +264,8 @@ std::string FieldScene::raster() const {
   std::string bytes;
   const double right = box_.low.x + static_cast<double>(grid.columns) * step;
   const double bottom = box_.high.y - static_cast<double>(grid.rows) * step;
-  for (const double number : {static_cast<double>(grid.columns), static_cast<double>(grid.rows), low,
-                              high, box_.low.x, bottom, right, box_.high.y})
+  for (const double number : {static_cast<double>(grid.columns), static_cast<double>(grid.rows),
+                              low, high, box_.low.x, bottom, right, box_.high.y})
     append_number(bytes, number);
   fields::rasterize(field_, grid, smoothness(), [&](std::size_t, std::span<const double> values) {
     for (const double value : values) append_number(bytes, value);

@@ -17,21 +17,23 @@ namespace loft::app {
 /// whose profile is shown.
 ///
 ///     move      a sample to a place; a line, or the profile's, by a vector from where it was given
-///     reshape   the profile's line, or another one, which stays what it is; where it has values, as
+///     reshape   the profile's line, or another one, which stays what it is; where it has values,
+///     as
 ///               many points as before
-///     insert    a sample with a value (default: that of the surface there); with the name `soft` or
+///     insert    a sample with a value (default: that of the surface there); with the name `soft`
+///     or
 ///               `barrier` a line
 ///     remove    a sample or a line
 ///     set       value (id, value), cubic (value: 0 or 1)
 ///
-/// It knows `raster`, as numbers: columns, rows, the lowest and the highest value, the box, then the
-/// rows from the top; `isolines`, `profile`, and `value` (at).
+/// It knows `raster`, as numbers: columns, rows, the lowest and the highest value, the box, then
+/// the rows from the top; `isolines`, `profile`, and `value` (at).
 class FieldScene : public Scene {
  public:
   /// A valley with a river, a dam across it, and the lake before that.
   FieldScene();
-  /// Points with a `value` (or z, height) are samples; lines are soft, or what their property `kind`
-  /// says, barrier or soft.
+  /// Points with a `value` (or z, height) are samples; lines are soft, or what their property
+  /// `kind` says, barrier or soft.
   explicit FieldScene(const io::Map& map);
 
   [[nodiscard]] Json state() const override;

@@ -20,9 +20,10 @@ struct Tab {
 
 /// Serves the page with its tabs.
 ///
-///     POST /tabs/NAME          an edit (edit.h): 200 once it is done, with the number of its event;
-///                              400 it is none, 404 no such tab, 413 too large, 422 the scene has no
-///                              such thing, or it would leave the plane, 507 no room
+///     POST /tabs/NAME          an edit (edit.h): 200 once it is done, with the number of its
+///     event;
+///                              400 it is none, 404 no such tab, 413 too large, 422 the scene has
+///                              no such thing, or it would leave the plane, 507 no room
 ///     GET /tabs/NAME/WHAT      ?id=7&at=x,y: what the scene knows of that, as JSON or numbers
 ///                              (Scene::bytes()); 404 nothing
 ///     GET /events?tab=NAME     server-sent events: `reset` with the whole state, then `change`s

@@ -21,9 +21,9 @@ constexpr int rows = 4;
 constexpr double side = 24;  // of a country, about
 
 constexpr std::array country_names{"Aldor",  "Brenna", "Corvia", "Dunmark", "Elvas",  "Fenland",
-                           "Gorun",  "Hesper", "Ivaria", "Jorland", "Kestra", "Lumen",
-                           "Maroun", "Nordal", "Ostia",  "Pellas",  "Quorra", "Rhune",
-                           "Sarov",  "Tessen", "Ulmark", "Varna",   "Wessel", "Yrien"};
+                                   "Gorun",  "Hesper", "Ivaria", "Jorland", "Kestra", "Lumen",
+                                   "Maroun", "Nordal", "Ostia",  "Pellas",  "Quorra", "Rhune",
+                                   "Sarov",  "Tessen", "Ulmark", "Varna",   "Wessel", "Yrien"};
 
 /// Corners of a grid, each moved a little, and rugged ways between them, each made once.
 class Borders {
@@ -31,8 +31,8 @@ class Borders {
   Borders() {
     for (int j = 0; j <= rows; ++j)
       for (int i = 0; i <= columns; ++i)
-        corners_.push_back({side * (i + dice_.between(-0.27, 0.27)),
-                            side * (j + dice_.between(-0.27, 0.27))});
+        corners_.push_back(
+            {side * (i + dice_.between(-0.27, 0.27)), side * (j + dice_.between(-0.27, 0.27))});
   }
 
   /// Appends the way from one corner to another, without its end.

@@ -64,7 +64,7 @@ MapScene::MapScene(const io::Map& map) {
   watch_all();
 }
 
-LayerId MapScene::add_owner(const std::string& name) { 
+LayerId MapScene::add_owner(const std::string& name) {
   return overlay_.add_layer(name, overlay::FillRule::nonzero);
 }
 

@@ -29,9 +29,7 @@ class MapScene : public Scene {
   [[nodiscard]] Json state() const override;
   Json apply(const Edit& edit) override;
   [[nodiscard]] Json answer(const Question& question) override;
-  [[nodiscard]] const cdt::Triangulation& mesh() const override {
-    return overlay_.triangulation();
-  }
+  [[nodiscard]] const cdt::Triangulation& mesh() const override { return overlay_.triangulation(); }
   [[nodiscard]] const overlay::Overlay& map() const { return overlay_; }
   [[nodiscard]] overlay::ResultId overlaps() const { return overlaps_; }
   [[nodiscard]] overlay::ResultId land() const { return land_; }

@@ -204,8 +204,7 @@ void PathsScene::choose_goal(Agent& agent) {
 void PathsScene::plan(Agent& agent, Point from) {
   agent.from = from;
   agent.since = time_;
-  planner_->change(agent.path,
-                   {.from = from, .to = agent.goal, .radius = standing_radius(agent)});
+  planner_->change(agent.path, {.from = from, .to = agent.goal, .radius = standing_radius(agent)});
   agent.way = planner_->path(agent.path);
   agent.next_try = time_ + pause;
 }
@@ -379,8 +378,9 @@ void PathsScene::remove(const Edit& edit, Json& change) {
   } else {
     const auto item = items_.find(*edit.id);
     if (item == items_.end()) throw Refusal(422, "there is no such box, wall or agent");
-    edit_boxes([&] { std::ranges::for_each(item->second.ids, [&](auto id) { overlay_.remove(id); }); },
-               change);
+    edit_boxes(
+        [&] { std::ranges::for_each(item->second.ids, [&](auto id) { overlay_.remove(id); }); },
+        change);
     items_.erase(item);
   }
   change["removed"] = Json::array({*edit.id});
@@ -391,7 +391,8 @@ void PathsScene::set(const Edit& edit, Json& change) {
   const bool is_radius = edit.name == "radius";
   const double largest = is_radius ? extent_of(box_) / 20 : extent_of(box_);
   if (!(is_radius || edit.name == "pace") || !(value >= 0) || value > largest)
-    throw Refusal(422, "radius and pace can be set, to a twentieth of the room and its size at most");
+    throw Refusal(422,
+                  "radius and pace can be set, to a twentieth of the room and its size at most");
   measure_edit([&] {
     std::vector<Point> here;
     for (const auto& [id, agent] : agents_) here.push_back(place_of(agent));

@@ -35,9 +35,7 @@ class PathsScene : public Scene {
   Json apply(const Edit& edit) override;
   [[nodiscard]] Json answer(const Question& question) override;
   Json advance(double seconds) override;
-  [[nodiscard]] const cdt::Triangulation& mesh() const override {
-    return overlay_.triangulation();
-  }
+  [[nodiscard]] const cdt::Triangulation& mesh() const override { return overlay_.triangulation(); }
   [[nodiscard]] const paths::FreeSpace& space() const { return *space_; }
 
   struct Agent {
@@ -57,7 +55,9 @@ class PathsScene : public Scene {
 
   void frame(const cdt::Box& box);
   ItemId add_item(Item item);
-  ItemId add_box(overlay::Ring ring) { return add_item({.name = "box", .rings = {std::move(ring)}}); }
+  ItemId add_box(overlay::Ring ring) {
+    return add_item({.name = "box", .rings = {std::move(ring)}});
+  }
   ItemId add_wall(overlay::Ring line);
   void add_boxes(Dice& dice, std::size_t count);
   void begin(std::size_t agent_count);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <charconv>
+#include <cmath>
 #include <cstdint>
 
 namespace loft::app {
@@ -13,6 +15,16 @@ using cdt::EdgeId;
 using cdt::Point;
 using cdt::Triangulation;
 using overlay::Overlay;
+
+std::optional<double> number_of(const io::Feature& feature, const char* key) {
+  const auto text = io::property(feature, key);
+  if (!text) return {};
+  double value = 0;
+  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
+  if (error != std::errc() || end != text->data() + text->size() || !std::isfinite(value))
+    return {};
+  return value;
+}
 
 void append_edge(std::string& bytes, Point a, Point b) {
   for (const double number : {a.x, a.y, b.x, b.y}) append_number(bytes, number);
@@ -106,6 +118,12 @@ std::string edges_as_bytes(const Triangulation& mesh) {
   const auto count = static_cast<double>(free_count);
   append_edge(bytes, {count, count}, {count, count});
   return bytes + free_ones + others;
+}
+
+double value_of(const io::Feature& feature) {
+  for (const char* key : {"value", "z", "height"})
+    if (const auto value = number_of(feature, key)) return *value;
+  return 0;
 }
 
 overlay::Ring directed(overlay::Ring ring, int turn) {

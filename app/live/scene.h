@@ -10,6 +10,7 @@
 #include "app/live/edit.h"
 #include "app/stopwatch.h"
 #include "cdt/triangulation.h"
+#include "io/planar/map.h"
 #include "overlay/overlay.h"
 
 namespace loft::app {
@@ -74,8 +75,8 @@ inline constexpr std::size_t most_items = 20'000;
 
 /// As 4 bytes, lowest first.
 void append_number(std::string& bytes, double number);
-/// The edges of a triangulation as such numbers, x, y, x, y of each: how many are free, as an edge of
-/// four times that number, the free ones, then the constrained ones.
+/// The edges of a triangulation as such numbers, x, y, x, y of each: how many are free, as an edge
+/// of four times that number, the free ones, then the constrained ones.
 [[nodiscard]] std::string edges_as_bytes(const cdt::Triangulation& mesh);
 
 /// Something that can be dragged: rings or lines as they were given, and how far they are from
@@ -89,8 +90,12 @@ struct Item {
   std::vector<overlay::RingId> ids = {};
 };
 
-/// The ring counter-clockwise (1) or clockwise (-1), its first point not repeated: so winding numbers
-/// unite what overlaps, and holes stay holes.
+/// What is measured at the points of a feature: its property value, z or height; 0 where it has
+/// none.
+[[nodiscard]] double value_of(const io::Feature& feature);
+
+/// The ring counter-clockwise (1) or clockwise (-1), its first point not repeated: so winding
+/// numbers unite what overlaps, and holes stay holes.
 [[nodiscard]] overlay::Ring directed(overlay::Ring ring, int turn);
 /// Outer ring and holes, directed so.
 [[nodiscard]] std::vector<overlay::Ring> directed_rings(const overlay::Polygon& polygon);

@@ -25,11 +25,10 @@ struct TabKind {
   std::unique_ptr<Scene> (*make)(const io::Map* map);
 };
 
-constexpr std::array kinds{TabKind{"shapes", scene_of<ShapesScene>},
-                           TabKind{"map", scene_of<MapScene>},
-                           TabKind{"paths", scene_of<PathsScene>},
-                           TabKind{"field", scene_of<FieldScene>},
-                           TabKind{"classes", scene_of<ClassesScene>}};
+constexpr std::array kinds{
+    TabKind{"shapes", scene_of<ShapesScene>}, TabKind{"map", scene_of<MapScene>},
+    TabKind{"paths", scene_of<PathsScene>}, TabKind{"field", scene_of<FieldScene>},
+    TabKind{"classes", scene_of<ClassesScene>}};
 
 }  // namespace
 

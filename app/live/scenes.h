@@ -17,9 +17,9 @@ namespace loft::app {
 /// The scene of a tab: its own, or one made of a map. Precondition: it is a name of a tab.
 [[nodiscard]] std::unique_ptr<Scene> make_scene(const std::string& tab, const io::Map* map);
 
-/// The tab that a map is for, by what is in it: points with a property `value` are for `field`, points
-/// and lines without polygons for `classes`; lines, points and layers among polygons are walls, agents
-/// and obstacles of `paths`; polygons with names are a `map`, others `shapes`.
+/// The tab that a map is for, by what is in it: points with a property `value` are for `field`,
+/// points and lines without polygons for `classes`; lines, points and layers among polygons are
+/// walls, agents and obstacles of `paths`; polygons with names are a `map`, others `shapes`.
 [[nodiscard]] std::string tab_for(const io::Map& map);
 
 }  // namespace loft::app

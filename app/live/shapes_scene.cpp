@@ -51,7 +51,8 @@ Ring box(double width, double height) {
 Ring stadium(double length, double width) {
   Ring ring;
   for (int i = 0; i < 50; ++i) {
-    const double angle = std::numbers::pi * (i % 25 + (i > 24 ? 24 : 0)) / 24 - std::numbers::pi / 2;
+    const double angle =
+        std::numbers::pi * (i % 25 + (i > 24 ? 24 : 0)) / 24 - std::numbers::pi / 2;
     const double end = i > 24 ? -length / 2 : length / 2;
     ring.push_back({end + width / 2 * std::cos(angle), width / 2 * std::sin(angle)});
   }

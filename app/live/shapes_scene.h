@@ -19,9 +19,9 @@ namespace loft::app {
 ///
 ///     move      a node: `at` is where its origin lies in its parent
 ///     reshape   a shape: points around its origin
-///     insert    a shape, an operand of the node `id` (default: the root); points in that one's frame
-///     remove    a node with all below it
-///     set       operation (id, text: unite, intersect, subtract, exclude), angle (id, value), parent
+///     insert    a shape, an operand of the node `id` (default: the root); points in that one's
+///     frame remove    a node with all below it set       operation (id, text: unite, intersect,
+///     subtract, exclude), angle (id, value), parent
 ///               (id, value), expression (text; empty: that of the tree)
 class ShapesScene : public Scene {
  public:

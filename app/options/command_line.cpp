@@ -25,6 +25,7 @@
 #include "io/stack.h"
 #include "io/stack_writer.h"
 #include "io/surfaces.h"
+#include "io/tables.h"
 #include "io/triangulations.h"
 #include "io/unit.h"
 #include "io/version.h"
@@ -320,12 +321,14 @@ CLI::App* add_live(CLI::App& app, LiveCommand& command) {
   CLI::App* sub = app.add_subcommand(
       "live", "Play with shapes, maps and paths in a browser: what is dragged, all else follows");
   sub->add_option("SCENE", command.scene,
-                  "Scene to open, " + loft::io::scene_extensions() +
+                  "Scene to open, " + loft::io::scene_extensions() + ", or a table of points, " +
+                      loft::io::point_table_extensions() +
                       "; without it each tab has one of its own");
-  sub->add_option("--tab", command.tab,
-                  "The tab that it is opened in, and that is shown at first (default: points with a "
-                  "property value are for field, points and lines alone for classes, among polygons "
-                  "for paths; polygons with names are a map, others shapes)")
+  sub->add_option(
+         "--tab", command.tab,
+         "The tab that it is opened in, and that is shown at first (default: points with a "
+         "property value are for field, points and lines alone for classes, among polygons "
+         "for paths; polygons with names are a map, others shapes)")
       ->type_name("TAB")
       ->check(CLI::IsMember(tab_names()));
   begin_group(*sub, server);
@@ -341,7 +344,8 @@ CLI::App* add_live(CLI::App& app, LiveCommand& command) {
       ->type_name("ADDRESS");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   sub->footer(
-      "Open the address that it prints; Ctrl-C ends it. In the page, ? lists the keys; T shows the\n"
+      "Open the address that it prints; Ctrl-C ends it. In the page, ? lists the keys; T shows "
+      "the\n"
       "triangles.\n\n"
       "Examples:\n"
       "  loft live\n"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What a page of `loft live` sends, an edit a line: the door admits what it says, and small scenes do
-// what they are asked to, or refuse it.
+// What a page of `loft live` sends, an edit a line: the door admits what it says, and small scenes
+// do what they are asked to, or refuse it.
 #include <memory>
 #include <stdexcept>
 
@@ -30,7 +30,11 @@ void judge(const app::Edit& edit) {
 io::Map small_map() {
   const overlay::Polygon square{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {{{1, 1}, {1, 2}, {2, 1}}}};
   const overlay::Polygon other{{{3, 3}, {6, 3}, {5, 6}}, {}};
-  return {{{.polygons = {square}}, {.polygons = {other}}, {.lines = {{{7, 0}, {7, 5}}}}, {.points = {{8, 8}}}}, ""};
+  return {{{.polygons = {square}},
+           {.polygons = {other}},
+           {.lines = {{{7, 0}, {7, 5}}}},
+           {.points = {{8, 8}}}},
+          ""};
 }
 
 void try_edit(app::Scene& scene, std::string_view line) {

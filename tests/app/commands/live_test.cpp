@@ -71,7 +71,9 @@ TEST_F(Live, TellsAnEditToWhoHasMissedIt) {
 TEST_F(Live, ForgetsNothingForWhoHasMissedTooMuch) {
   const std::string id = field(events("tab=map", 1), "id");
   for (int i = 0; i < 1100; ++i)
-    ASSERT_EQ(status("map", R"({"do": "move", "id": 26, "at": [)" + std::to_string(i % 7) + ", 0]}"), 200);
+    ASSERT_EQ(
+        status("map", R"({"do": "move", "id": 26, "at": [)" + std::to_string(i % 7) + ", 0]}"),
+        200);
   const std::string all = events("tab=map&after=" + id, 1);
   EXPECT_THAT(all, HasSubstr("event: reset"));
   EXPECT_THAT(all, HasSubstr("\"at\":[0.0,0.0]"));

@@ -92,13 +92,13 @@ class Page {
     return value.is_array() && !value.empty() && value[0].is_array() && value[0].size() == 5;
   }
   static bool is_about_the_edit(const std::string& key) {
-    return key == "microseconds" || key == "made" || key == "planning" || key == "box" || key == "time" ||
-           value_is_list(key);
+    return key == "microseconds" || key == "made" || key == "planning" || key == "box" ||
+           key == "time" || value_is_list(key);
   }
   static bool value_is_list(const std::string& key) {
-    static const std::set<std::string> lists{"parts",   "items", "agents",     "samples",
-                                             "lines",   "moved", "separators", "points",
-                                             "shapes",  "nodes", "removed"};
+    static const std::set<std::string> lists{"parts",  "items", "agents",     "samples",
+                                             "lines",  "moved", "separators", "points",
+                                             "shapes", "nodes", "removed"};
     return lists.contains(key);
   }
   void take_border(const std::string& key, const Json& border) {
@@ -188,10 +188,10 @@ TEST_P(AnyScene, IsKnownFromItsStateAndChanges) {
 TEST_P(AnyScene, IsAsBeforeAfterARefusal) {
   const auto scene = make_scene(GetParam(), nullptr);
   const Page before(scene->state());
-  const std::vector<Edit> refused{
-      move(4'000'000'000, {0, 0}), remove(0), remove(4'000'000'000), set("nothing", 1.0),
-      set("nothing", "x"), set("expression", "no such | name"), set("radius", -1.0),
-      set("parent", 1.0, 1U)};
+  const std::vector<Edit> refused{move(4'000'000'000, {0, 0}), remove(0),
+                                  remove(4'000'000'000),       set("nothing", 1.0),
+                                  set("nothing", "x"),         set("expression", "no such | name"),
+                                  set("radius", -1.0),         set("parent", 1.0, 1U)};
   for (const Edit& edit : refused) {
     EXPECT_ANY_THROW(scene->apply(edit)) << edit.name;
     EXPECT_EQ(Page(scene->state()), before) << edit.name;
@@ -210,7 +210,8 @@ TEST_P(AnyScene, TellsAllItsEdges) {
 TEST_P(AnyScene, RefusesWhatItDoesNotKnow) {
   const auto scene = make_scene(GetParam(), nullptr);
   EXPECT_THROW(static_cast<void>(scene->answer({.what = "weather"})), Refusal);
-  EXPECT_THROW(static_cast<void>(scene->answer({.what = "channel", .id = 4'000'000'000U})), Refusal);
+  EXPECT_THROW(static_cast<void>(scene->answer({.what = "channel", .id = 4'000'000'000U})),
+               Refusal);
 }
 
 INSTANTIATE_TEST_SUITE_P(Tabs, AnyScene, ::testing::ValuesIn(tab_names()),
@@ -297,8 +298,10 @@ TEST(MapScene, NothingLeavesThePlane) {
 }
 
 TEST(MapScene, IslandsBesideTheirOwnLandAreNoHoles) {
-  const io::Map map{{{.polygons = {{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {}}, {{{6, 0}, {6, 2}, {8, 2}, {8, 0}}, {}}},
-                      .properties = R"({"name": "A"})"}}, ""};
+  const io::Map map{{{.polygons = {{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, {}},
+                                   {{{6, 0}, {6, 2}, {8, 2}, {8, 0}}, {}}},
+                      .properties = R"({"name": "A"})"}},
+                    ""};
   MapScene scene(map);
   EXPECT_EQ(scene.state()["land"]["area"], 20.0);
   EXPECT_EQ(scene.apply(move(2, {-5, 1}))["land"]["area"], 16.0);
@@ -342,7 +345,8 @@ TEST(PathsScene, ABoxInTheWayIsWalkedAround) {
 TEST(PathsScene, SaysHowWideAWayIs) {
   const io::Map map{{{.polygons = {{{{0, 0}, {10, 0}, {10, 4}, {0, 4}}, {}},
                                    {{{0, 8}, {10, 8}, {10, 12}, {0, 12}}, {}}}},
-                     {.points = {{-0.5, 6}}}}, ""};
+                     {.points = {{-0.5, 6}}}},
+                    ""};
   PathsScene scene(map);
   const ItemId agent = scene.agents().begin()->first;
   scene.apply(set("pace", 0.0));
@@ -350,7 +354,8 @@ TEST(PathsScene, SaysHowWideAWayIs) {
   const Json known = scene.answer({.what = "channel", .id = agent});
   EXPECT_NEAR(known["widest"].get<double>(), 0.7, 1e-9);  // beside the frame
   EXPECT_FALSE(known["triangles"].empty());
-  EXPECT_NEAR(scene.answer({.what = "clearance", .at = Point{5, 6}})["clearance"].get<double>(), 2, 1e-12);
+  EXPECT_NEAR(scene.answer({.what = "clearance", .at = Point{5, 6}})["clearance"].get<double>(), 2,
+              1e-12);
 }
 
 // --- Field ---
@@ -359,7 +364,8 @@ TEST(FieldScene, FollowsASampleAndTellsTheProfile) {
   const io::Map map{{{.points = {{0, 0}}, .properties = R"({"value": 1})"},
                      {.points = {{4, 0}}, .properties = R"({"value": 5})"},
                      {.points = {{0, 4}}, .properties = R"({"value": 1})"},
-                     {.points = {{4, 4}}, .properties = R"({"value": 5})"}}, ""};
+                     {.points = {{4, 4}}, .properties = R"({"value": 5})"}},
+                    ""};
   FieldScene scene(map);
   const auto value = [&](Point p) { return scene.answer({.what = "value", .at = p})["value"]; };
   EXPECT_EQ(value({2, 2}), 3.0);
@@ -394,7 +400,8 @@ TEST(FieldScene, ItsDamHoldsTheLake) {
 TEST(ClassesScene, TellsWhichPointsHaveChanged) {
   const io::Map map{{{.points = {{1, 1}, {3, 1}, {1, 3}, {3, 3}}},
                      {.lines = {{{2, 0}, {2, 4}}}},
-                     {.lines = {{{0, 2}, {4, 2}}}}}, ""};
+                     {.lines = {{{0, 2}, {4, 2}}}}},
+                    ""};
   ClassesScene scene(map);
   const Json state = scene.state();
   EXPECT_EQ(state["points"][0], Json::array({1, 1.0, 1.0, 0.0, "+-"}));
@@ -423,7 +430,8 @@ TEST(Tabs, AreChosenByWhatIsInAMap) {
 }
 
 TEST(Tabs, TakeAnyMap) {
-  io::Map map{{{.polygons = {{{{0, 0}, {0, 0}}, {}}, {{}, {}}}}, {.lines = {{}, {{1, 1}}}}, {}}, ""};
+  io::Map map{{{.polygons = {{{{0, 0}, {0, 0}}, {}}, {{}, {}}}}, {.lines = {{}, {{1, 1}}}}, {}},
+              ""};
   map.features[0].polygons[1].outer = {{1, 1}};
   map.features[1].lines[0] = {{2, 2}, {3, 3}};
   for (const std::string& tab : tab_names()) {
