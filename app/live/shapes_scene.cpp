@@ -41,13 +41,7 @@ Ring disc(double radius, int corners = 64) {
   return ring;
 }
 
-Ring box(double width, double height) {
-  const double x = width / 2;
-  const double y = height / 2;
-  return {{-x, -y}, {x, -y}, {x, y}, {-x, y}};
-}
-
-/// A box with round ends.
+/// As long as that between the middles of its round ends.
 Ring stadium(double length, double width) {
   Ring ring;
   for (int i = 0; i < 50; ++i) {

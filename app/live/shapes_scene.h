@@ -43,8 +43,8 @@ class ShapesScene : public Scene {
   struct Node {
     overlay::NodeId id;
     std::string name;
-    std::vector<overlay::Ring> rings;  // of a shape
-    std::optional<overlay::Operation> operation;
+    std::vector<overlay::Ring> rings = {};  // of a shape
+    std::optional<overlay::Operation> operation = {};
     cdt::Point at{};
     double angle = 0;
   };
