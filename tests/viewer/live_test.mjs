@@ -51,7 +51,7 @@ async function drag(from, to, steps = 10) {
 
 // Until no edit is under way and all is in the picture.
 async function settle() {
-  await viewer.page.waitForTimeout(300);
+  await viewer.page.waitForTimeout(400);
   await viewer.settle();
 }
 
@@ -61,7 +61,7 @@ const overlaps = () => number('#overlap-area');
 
 // Polls until a number is as it should be.
 async function until(value, isRight) {
-  for (let i = 0; i < 100; ++i) {
+  for (let i = 0; i < 600; ++i) {
     if (isRight(await value())) return;
     await viewer.page.waitForTimeout(50);
   }
@@ -222,6 +222,7 @@ test('a program that was started anew is shown as it is', async () => {
   const before = await area();
   await drag([52, 0], [90, 10]);
   await until(area, (now) => now > before + 150);
+  await settle();  // a move that is under way would be told again
   const { port } = loft;
   await loft.end();
   await viewer.page.waitForSelector('#banner', { state: 'visible' });

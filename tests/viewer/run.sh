@@ -1,7 +1,8 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Tests the viewer in Debian's Chromium. Installs what is missing first; LOFT names another program
-# than that of build/release.
+# Tests the viewer and the live page in Debian's Chromium. Installs what is missing first; LOFT names
+# another program than that of build/release.
+#   sh tests/viewer/run.sh [TEST...]
 set -eu
 cd "$(dirname "$0")"
 
@@ -10,4 +11,5 @@ if [ ! node_modules/.package-lock.json -nt package-lock.json ]; then
   npm ci --no-audit --no-fund
 fi
 export LOFT="${LOFT:-$PWD/../../build/release/app/loft}"
-exec node --test viewer_test.mjs
+[ $# -gt 0 ] || set -- viewer_test.mjs live_test.mjs
+for test; do node --test "$test"; done

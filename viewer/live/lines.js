@@ -42,7 +42,8 @@ export class TabWithLines extends Tab {
   #bending(id, corners, corner) {
     let sent = Promise.resolve(0);
     this.#bent = id;
-    this.#kept = undefined;
+    const { at, rings: [points] } = this.things.get(id);
+    this.#kept = { id, at, points };
     return {
       move: (to) => {
         corners[corner] = to;
@@ -52,7 +53,7 @@ export class TabWithLines extends Tab {
       end: async () => {
         const event = await sent;
         this.#bent = undefined;
-        if (event === undefined && this.#kept) this.takeLine(this.#kept);  // it was refused
+        if (event === undefined) this.takeLine(this.#kept);  // it was refused
       },
     };
   }

@@ -24,6 +24,7 @@ export class Shapes extends Tab {
   #nodes = new Map();
   #result = new Border();
   #kind = 'disc';
+  #held;  // the node that is being dragged, as the program has it
 
   constructor(page) { super(page, 'shapes', 'Shapes', new Things(true)); }
 
@@ -48,13 +49,17 @@ export class Shapes extends Tab {
       this.removeThing(id);
     }
     for (const node of change.nodes ?? []) {
-      Object.assign(this.#nodes.get(node.id), node);
-      this.#placeBelow(node.id);
+      if (node.id === this.#held?.id) this.#held = node;
+      else this.#takeNode(node);
     }
     this.#takeResult(change);
     if (change.shapes || change.removed || change.expression !== undefined) this.#showTree();
   }
 
+  #takeNode(node) {
+    Object.assign(this.#nodes.get(node.id), node);
+    this.#placeBelow(node.id);
+  }
   #addNode(node) {
     const { rings, ...rest } = node;
     this.#nodes.set(node.id, rest);
@@ -116,9 +121,16 @@ export class Shapes extends Tab {
     if (id === undefined) return undefined;
     this.choose(id);
     const begin = this.#nodes.get(id).at;
+    let sent = Promise.resolve(0);
+    this.#held = { ...this.#nodes.get(id) };
     return {
-      move: ([x, y]) => this.#moveNode(id, begin, [x - p[0], y - p[1]]),
-      end: () => {},
+      move: ([x, y]) => { sent = this.#moveNode(id, begin, [x - p[0], y - p[1]]); },
+      end: async () => {
+        const event = await sent;
+        const held = this.#held;
+        this.#held = undefined;
+        if (event === undefined && this.has(id)) this.#takeNode(held);  // it was refused
+      },
     };
   }
 
@@ -129,7 +141,7 @@ export class Shapes extends Tab {
     const [dx, dy] = apply(inverse(above), by);
     node.at = [begin[0] + dx, begin[1] + dy];
     this.#placeBelow(id);
-    this.page.send({ do: 'move', id, at: node.at }, `move ${id}`);
+    return this.page.send({ do: 'move', id, at: node.at }, `move ${id}`);
   }
   moveBy(id, by) { this.#moveNode(id, this.#nodes.get(id).at, by); }
 
