@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "cdt/predicates.h"
-#include "tests/cases.h"
 #include "tests/fields/edited.h"
 
 namespace loft::fields {
@@ -96,7 +95,7 @@ void expect_as_inserted(const Field& field, std::span<const ProfilePoint> points
 }
 
 TEST(Profile, IsWhatTheLineIsOnOnceItIsInserted) {
-  for (std::uint64_t seed = 0; seed < cases(100); ++seed) {
+  for (std::uint64_t seed = 0; seed < fields_to_try(100); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();
