@@ -16,7 +16,7 @@ namespace {
 
 /// What a plane is fitted to: at least so many values, unless there are fewer.
 constexpr std::size_t enough_values = 8;
-/// Rings are looked at until so many triangles were.
+/// Rings are looked at until so many triangles were, if there is any value.
 constexpr std::size_t most_triangles = 4096;
 
 /// Whether p comes before q on the way from a to b, which both are on or rounded to.
@@ -42,11 +42,11 @@ class Rings {
   }
 
   [[nodiscard]] const std::vector<TriangleId>& outermost() const { return outermost_; }
+  [[nodiscard]] std::size_t size() const { return seen_.size(); }
   /// Whether there is another ring.
   [[nodiscard]] bool widen() {
     const std::vector<TriangleId> inner = std::move(outermost_);
     outermost_.clear();
-    if (seen_.size() > most_triangles) return false;
     for (const TriangleId t : inner)
       for (unsigned corner = 0; corner < 3; ++corner)
         if (const EdgeId e = Triangulation::edge(t, corner); !field_.is_separating(e))
@@ -85,7 +85,13 @@ double Field::derived_value(EdgeId e) const {
 /// Where there are soft lines, that of the surface without them: at a place on walls and barriers,
 /// on that side of the one that the sector begins or ends at.
 double Field::find_derived_value(EdgeId e) const {
-  if (!firm_) return fit_from_around(e);
+  if (firm_)
+    if (const double value = firm_value(e); value == value) return value;
+  // Beyond the hull of all else there may be values where barriers enclose none inside of it.
+  return fit_from_around(e);
+}
+
+double Field::firm_value(EdgeId e) const {
   EdgeId first = e;
   while (!is_separating(first)) {
     first = Triangulation::next(mesh_.twin(first));
@@ -142,7 +148,7 @@ double Field::fit_from_around(EdgeId e) const {
     around.erase(std::unique(around.begin(), around.end()), around.end());
     if (around.size() < enough_values) continue;
     if (const auto value = plane_value(at, around)) return *value;
-  } while (rings.widen());
+  } while ((around.empty() || rings.size() < most_triangles) && rings.widen());
   if (around.empty()) return std::numeric_limits<double>::quiet_NaN();
   return nearest_plane_value(at, around);
 }

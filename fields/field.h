@@ -250,6 +250,7 @@ class Field {
   [[nodiscard]] double derived_value(EdgeId e) const;
   [[nodiscard]] double find_derived_value(EdgeId e) const;
   [[nodiscard]] double fit_from_around(EdgeId e) const;
+  [[nodiscard]] double firm_value(EdgeId e) const;
   [[nodiscard]] std::optional<double> firm_value_beside(EdgeId e, bool is_on_left) const;
 
   // gradients.cpp

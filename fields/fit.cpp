@@ -10,15 +10,22 @@ namespace loft::fields {
 
 namespace {
 
-/// Places whose moments are closer to those of a line than that fix no plane.
-constexpr double flatness = 1e-9;
-/// A term of which less than that is left beside those before it is not fixed by the values.
-constexpr double least_left = 1e-2;
+/// Places whose moments are closer to those of a line than that fix no plane: the square of an
+/// angle.
+constexpr double flatness = 1e-14;
+/// With less, what is beside the line would be guessed from what hardly leaves it.
+constexpr double safe_flatness = 1e-3;
+/// A slope or a curvature of which less than that is left beside the terms before it is not fixed
+/// by the values. (Where a slope is hardly fixed, the triangles are thin, and it matters little.)
+constexpr double least_slope = 1e-7;
+constexpr double least_curvature = 1e-2;
 
 struct Moments {
   double xx = 0, xy = 0, yy = 0;
   [[nodiscard]] double trace() const { return xx + yy; }
-  [[nodiscard]] bool is_flat() const { return !(xx * yy - xy * xy > flatness * trace() * trace()); }
+  [[nodiscard]] bool is_flat(double limit = flatness) const {
+    return !(xx * yy - xy * xy > limit * trace() * trace());
+  }
 };
 
 /// The mean of places and values, and how they vary around it.
@@ -36,7 +43,7 @@ class Plane {
       add(weight(a) / total, way(at, a.place) + -1 * mean_, a.value - value_);
   }
 
-  [[nodiscard]] bool is_fixed() const { return !moments_.is_flat(); }
+  [[nodiscard]] bool is_fixed(double limit = flatness) const { return !moments_.is_flat(limit); }
   [[nodiscard]] double value() const {
     return value_ - dot(is_fixed() ? slope() : slope_along_line(), mean_);
   }
@@ -90,7 +97,7 @@ class QuadraticFit {
       for (std::size_t j = 0; j < k; ++j)
         if (norm[j] > 0) take(j, k, factors_[j][k] = product(j, k) / norm[j]);
       norm[k] = product(k, k);
-      if (!(std::sqrt(norm[k]) > least_left * whole)) norm[k] = 0;
+      if (!(std::sqrt(norm[k]) > (k < 2 ? least_slope : least_curvature) * whole)) norm[k] = 0;
       if (norm[k] > 0) take(k, terms, factors_[k][terms] = product(k, terms) / norm[k]);
     }
     std::array<double, terms> solution{};
@@ -157,7 +164,7 @@ Vector gradient_along_line(cdt::Point at, double value, const std::vector<Around
 
 std::optional<double> plane_value(cdt::Point at, const std::vector<Around>& around) {
   const Plane plane(at, around);
-  if (!plane.is_fixed()) return std::nullopt;
+  if (!plane.is_fixed(safe_flatness)) return std::nullopt;
   return plane.value();
 }
 

@@ -18,8 +18,8 @@ struct Around {
 };
 
 /// The plane that fits values best, weighted by the inverse squares of their distances from a place
-/// where none of them is: its value there. None if they do not fix a plane. Precondition: there
-/// is at least one.
+/// where none of them is: its value there. None if they hardly fix a plane, being almost in one
+/// line. Precondition: there is at least one.
 [[nodiscard]] std::optional<double> plane_value(cdt::Point at, const std::vector<Around>& around);
 
 /// The same, where they may be in one line or in one place: what does not follow from them is flat.

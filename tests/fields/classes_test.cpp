@@ -246,7 +246,8 @@ TEST(Classes, KnowPointsOnASeparatorItsVertexAndItsEnds) {
       std::vector<Point>{{0, 0}, {1, 0}, {-7, 0}, {2, 1}, {5, 4}, {0, 3}, {0, -3}, {1, 0}});
   const SeparatorId line = classes.insert_separator(std::vector<Point>{{0, 0}, {1, 0}, {2, 1}});
   EXPECT_EQ(classes.changed().size(), 8U);
-  for (const std::size_t i : {0U, 1U, 2U, 3U, 4U, 7U}) EXPECT_EQ(classes.sign(ids[i], line), on_it) << i;
+  for (const std::size_t i : {0U, 1U, 2U, 3U, 4U, 7U})
+    EXPECT_EQ(classes.sign(ids[i], line), on_it) << i;
   EXPECT_EQ(classes.sign(ids[5], line), to_left);
   EXPECT_EQ(classes.sign(ids[6], line), to_right);
   classes.move(line, std::vector<Point>{{0, 0}, {1, 0}, {2, 0}});

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <iterator>
 #include <map>
 #include <random>
@@ -11,8 +12,15 @@
 #include <vector>
 
 #include "fields/field.h"
+#include "tests/cases.h"
 
 namespace loft::fields {
+
+/// How many random fields a test tries: as many as the environment says, for the long run.
+inline std::uint64_t fields_to_try(std::uint64_t count) {
+  const char* asked = std::getenv("LOFT_SOAK_FIELDS");
+  return asked != nullptr ? std::strtoull(asked, nullptr, 10) : cases(count);
+}
 
 /// What a line was made of.
 struct KeptLine {

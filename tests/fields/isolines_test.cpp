@@ -13,7 +13,6 @@
 #include "cdt/rounding.h"
 #include "fields/level.h"
 #include "overlay/validity.h"
-#include "tests/cases.h"
 #include "tests/fields/edited.h"
 
 namespace loft::fields {
@@ -91,7 +90,7 @@ TEST(Isolines, OfWhatIsExactlyAtALevelGoAroundIt) {
 TEST(Isolines, LieAtTheirLevelAndStopAtWalls) {
   std::size_t closed = 0;
   std::size_t open = 0;
-  for (std::uint64_t seed = 0; seed < cases(30); ++seed) {
+  for (std::uint64_t seed = 0; seed < fields_to_try(30); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();
@@ -136,7 +135,7 @@ TEST(Isolines, LieAtTheirLevelAndStopAtWalls) {
 }
 
 TEST(Bands, AreWhereTheValuesAre) {
-  for (std::uint64_t seed = 100; seed < 100 + cases(30); ++seed) {
+  for (std::uint64_t seed = 100; seed < 100 + fields_to_try(30); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();

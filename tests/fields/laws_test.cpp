@@ -30,7 +30,7 @@ void expect_same(const Field& a, const Field& b, Point p) {
 
 TEST(Fields, AreWhateverTheOrderOfEdits) {
   std::uint64_t compared = 0;
-  for (std::uint64_t seed = 0; seed < cases(120); ++seed) {
+  for (std::uint64_t seed = 0; seed < fields_to_try(120); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) {
@@ -86,10 +86,22 @@ void for_each_free_edge(const Field& field, Visit visit) {
   return least;
 }
 
+/// The largest gradient at the corners of both triangles of an edge.
+[[nodiscard]] double steepest(const Field& field, EdgeId e) {
+  double most = 0;
+  for (const EdgeId side : {e, field.mesh().twin(e)})
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const Vector gradient =
+          field.corner_gradient(Triangulation::edge(Triangulation::triangle(side), corner));
+      most = std::max(most, std::sqrt(dot(gradient, gradient)));
+    }
+  return most;
+}
+
 TEST(Fields, AreSmoothAcrossEdgesButFeatures) {
   std::uint64_t smooth = 0;
   std::uint64_t creased = 0;
-  for (std::uint64_t seed = 1000; seed < 1000 + cases(60); ++seed) {
+  for (std::uint64_t seed = 1000; seed < 1000 + fields_to_try(60); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();
@@ -101,7 +113,7 @@ TEST(Fields, AreSmoothAcrossEdgesButFeatures) {
         return;
       for (const double t : {0.1, 0.25, 0.5, 0.9}) {
         const Point p = on(mesh, e, t);
-        const double scale = 64 + std::abs(field.edge_value(e, p, Smoothness::cubic));
+        const double scale = 64 + 16 * steepest(field, e);
         EXPECT_NEAR(left.value(p), right.value(p), 1e-11 * scale);
         EXPECT_NEAR(left.value(p), field.edge_value(e, p, Smoothness::cubic), 1e-11 * scale);
         EXPECT_EQ(field.edge_value(e, p, Smoothness::cubic),
@@ -109,7 +121,7 @@ TEST(Fields, AreSmoothAcrossEdgesButFeatures) {
         EXPECT_EQ(field.edge_value(e, p), field.edge_value(mesh.twin(e), p));
         const Vector a = left.gradient(p);
         const Vector b = right.gradient(p);
-        const double size = 1 + std::sqrt(dot(a, a) + dot(b, b));
+        const double size = 1 + std::sqrt(dot(a, a) + dot(b, b)) + steepest(field, e);
         const Vector difference = a + -1 * b;
         if (!field.is_crease(e)) {
           EXPECT_LT(std::sqrt(dot(difference, difference)), 1e-9 * size)
@@ -126,7 +138,7 @@ TEST(Fields, AreSmoothAcrossEdgesButFeatures) {
 }
 
 TEST(Fields, SlopeAsTheirValuesDo) {
-  for (std::uint64_t seed = 2000; seed < 2000 + cases(40); ++seed) {
+  for (std::uint64_t seed = 2000; seed < 2000 + fields_to_try(40); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();
@@ -139,7 +151,8 @@ TEST(Fields, SlopeAsTheirValuesDo) {
       const Point middle = on(mesh, e, 0.4);
       const Point apex = mesh.point(mesh.apex(e));
       const Point p{middle.x + 0.37 * (apex.x - middle.x), middle.y + 0.37 * (apex.y - middle.y)};
-      const double step = 1e-4;
+      const Vector edge = way(mesh.point(mesh.from(e)), mesh.point(mesh.to(e)));
+      const double step = 1e-5 * std::sqrt(dot(edge, edge));
       for (const Smoothness smoothness : smoothnesses) {
         const Patch patch(field, t, smoothness);
         if (!patch.has_values()) continue;
@@ -157,7 +170,7 @@ TEST(Fields, SlopeAsTheirValuesDo) {
 }
 
 TEST(Fields, AreBetweenTheCornersWhereLinear) {
-  for (std::uint64_t seed = 3000; seed < 3000 + cases(40); ++seed) {
+  for (std::uint64_t seed = 3000; seed < 3000 + fields_to_try(40); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();
@@ -180,21 +193,30 @@ TEST(Fields, AreBetweenTheCornersWhereLinear) {
 
 TEST(Fields, ReproduceAPlane) {
   const auto plane = [](Point p) { return 3 + 2 * p.x - 5 * p.y; };
-  for (std::uint64_t seed = 4000; seed < 4000 + cases(40); ++seed) {
+  for (std::uint64_t seed = 4000; seed < 4000 + fields_to_try(40); ++seed) {
     SCOPED_TRACE(seed);
     Edited random(seed);
     Field field;
-    for (const Point p : {Point{0, 0}, Point{16, 0}, Point{16, 16}, Point{0, 16}})
+    for (const Point p : {Point{-1, -1}, Point{17, -1}, Point{17, 17}, Point{-1, 17}})
       field.insert(Sample{p, plane(p)});
     for (int i = 0; i < 40; ++i) {
       const Point p = random.place();
       field.insert(Sample{p, plane(p)});
     }
+    std::vector<Point> wall;
     for (unsigned i = 0; i < 6; ++i) {
-      // A barrier with a bend may have values in one line on a side, which are those of no plane.
       const auto kind = static_cast<LineKind>(i % 4);
       std::vector<Point> points{random.place(), random.place(), random.place()};
+      if (points.front() == points.back()) continue;
+      if (kind == LineKind::wall) wall = points;
+      // What a barrier encloses may have values in one line, which are those of no plane.
       if (kind == LineKind::barrier) points.pop_back();
+      if (kind == LineKind::barrier && !wall.empty() &&
+          (cdt::orient(points[0], points[1], wall[0]) !=
+               cdt::orient(points[0], points[1], wall[1]) ||
+           cdt::orient(points[0], points[1], wall[1]) !=
+               cdt::orient(points[0], points[1], wall[2])))
+        continue;
       if (points.front() == points.back()) continue;
       std::vector<double> values;
       for (const Point p : points) values.push_back(plane(p));
@@ -206,7 +228,7 @@ TEST(Fields, ReproduceAPlane) {
       for (const Smoothness smoothness : smoothnesses) {
         const std::optional<double> value = field.value(p, smoothness);
         if (!value) continue;
-        EXPECT_NEAR(*value, plane(p), 1e-11) << p;
+        EXPECT_NEAR(*value, plane(p), 1e-10) << p;  // triangles may be thin
         const std::optional<Vector> gradient = field.gradient(p, smoothness);
         ASSERT_TRUE(gradient);
         EXPECT_NEAR(gradient->x, 2, 1e-8);
@@ -217,7 +239,7 @@ TEST(Fields, ReproduceAPlane) {
 }
 
 TEST(Fields, AreNotChangedFromBeyondAWallOrBarrier) {
-  for (std::uint64_t seed = 5000; seed < 5000 + cases(60); ++seed) {
+  for (std::uint64_t seed = 5000; seed < 5000 + fields_to_try(60); ++seed) {
     SCOPED_TRACE(seed);
     Edited random(seed);
     const std::vector<Point> fence{{8, -1}, {7, 4}, {9, 9}, {8, 17}};
@@ -237,7 +259,7 @@ TEST(Fields, AreNotChangedFromBeyondAWallOrBarrier) {
     for (int i = 0; i < 60; ++i) {
       // Samples on the fence count on both sides.
       const Point grid = random.place();
-      const Point p{grid.x + 1.0 / 64, grid.y};
+      const Point p{grid.x + 0.013, grid.y + 0.007};
       const SampleId id = field.insert(Sample{p, random.height()});
       if (is_west(p))
         here.push_back(p);

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "cdt/predicates.h"
-#include "tests/cases.h"
 #include "tests/fields/edited.h"
 
 namespace loft::fields {
@@ -77,7 +76,13 @@ TEST(Profile, JumpsAtAWall) {
   EXPECT_GE(climb(points).up, 6);
 }
 
-/// The edges of a line that is in a field, and the values along it.
+[[nodiscard]] bool is_same(std::optional<double> value, double inserted) {
+  if (!value) return inserted != inserted;
+  return std::abs(*value - inserted) <= 1e-11 * (64 + std::abs(*value));
+}
+
+/// The edges of a line that is in a field, and the values along it. Where a wall comes within
+/// rounding of a point of the line, there is an entry before and one behind it.
 void expect_as_inserted(const Field& field, std::span<const ProfilePoint> points, LineId line) {
   const Triangulation& mesh = field.mesh();
   std::size_t next = 0;
@@ -87,16 +92,16 @@ void expect_as_inserted(const Field& field, std::span<const ProfilePoint> points
       while (next < points.size() && points[next].place != place) ++next;
       ASSERT_LT(next, points.size()) << "no entry at " << place;
       if (field.is_separating(e)) continue;
-      const std::optional<double>& value = corner == e ? points[next].after : points[next].before;
-      const double inserted = field.corner_value(corner);
-      ASSERT_EQ(value.has_value(), inserted == inserted) << place;
-      if (!value) continue;
-      ASSERT_NEAR(*value, inserted, 1e-11 * (64 + std::abs(*value))) << place;
+      bool is_there = false;
+      for (std::size_t i = next; i < points.size() && points[i].place == place; ++i)
+        is_there = is_there || is_same(corner == e ? points[i].after : points[i].before,
+                                       field.corner_value(corner));
+      ASSERT_TRUE(is_there) << place;
     }
 }
 
 TEST(Profile, IsWhatTheLineIsOnOnceItIsInserted) {
-  for (std::uint64_t seed = 0; seed < cases(100); ++seed) {
+  for (std::uint64_t seed = 0; seed < fields_to_try(100); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();

@@ -6,14 +6,13 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/cases.h"
 #include "tests/fields/edited.h"
 
 namespace loft::fields {
 namespace {
 
 TEST(Raster, HasTheValuesOfTheField) {
-  for (std::uint64_t seed = 0; seed < cases(20); ++seed) {
+  for (std::uint64_t seed = 0; seed < fields_to_try(20); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include "tests/cases.h"
 #include "tests/fields/edited.h"
 
 namespace loft::fields {
@@ -57,7 +56,7 @@ TEST(Volume, AreasBySlope) {
 }
 
 TEST(Volume, IsOverAndUnderALevelTogether) {
-  for (std::uint64_t seed = 0; seed < cases(40); ++seed) {
+  for (std::uint64_t seed = 0; seed < fields_to_try(40); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();
@@ -88,7 +87,7 @@ TEST(Volume, IsOverAndUnderALevelTogether) {
 }
 
 TEST(Volume, DependsOnNothingButTheField) {
-  for (std::uint64_t seed = 500; seed < 500 + cases(20); ++seed) {
+  for (std::uint64_t seed = 500; seed < 500 + fields_to_try(20); ++seed) {
     SCOPED_TRACE(seed);
     Edited edited(seed);
     for (int i = 0; i < 60; ++i) edited.edit();
