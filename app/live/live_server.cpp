@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <exception>
 #include <regex>
 #include <utility>
 
@@ -17,6 +18,14 @@ using httplib::Response;
 
 constexpr std::size_t most_edit_bytes = std::size_t{1} << 20U;
 constexpr std::chrono::milliseconds tick{40};
+
+/// Whatever goes wrong, the others go on; whoever edits that scene is told.
+void advance(SharedScene& scene) {
+  try {
+    scene.advance();
+  } catch (const std::exception&) {
+  }
+}
 
 template <class Do>
 void answer_or_refuse(Response& response, Do act) {
@@ -122,7 +131,7 @@ void LiveServer::keep_time() {
   while (!is_ending_) {
     std::this_thread::sleep_for(tick);
     if (site_.viewers() == 0) continue;
-    for (const Tab& tab : tabs_) tab.scene->advance();
+    for (const Tab& tab : tabs_) advance(*tab.scene);
   }
 }
 

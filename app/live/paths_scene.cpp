@@ -330,7 +330,13 @@ template <class Do>
 void PathsScene::edit_boxes(Do edit, Json& change) {
   measure_edit([&] {
     overlay_.begin_batch();
-    edit();
+    try {
+      edit();
+    } catch (...) {
+      overlay_.end_batch();
+      space_->follow();
+      throw;
+    }
     overlay_.end_batch();
     space_->follow();
     const auto broken = planner_->after_edit();
