@@ -84,12 +84,53 @@ void expect_right_nearest(const Triangulation& mesh, Point p) {
   ASSERT_EQ(nearest_vertex(mesh, p), nearest_by_looking_at_all(mesh, p)) << p;
 }
 
+bool has_corner(const Triangulation& mesh, TriangleId t, VertexId v) {
+  for (unsigned corner = 0; corner < 3; ++corner)
+    if (mesh.from(Triangulation::edge(t, corner)) == v) return true;
+  return false;
+}
+
+/// Each part leads to the next, over an edge that the segment crosses or a vertex on it.
+void expect_joined(const Triangulation& mesh, Point a, Point b) {
+  const Way way = passed_by(mesh, a, b);
+  const auto side = [&](VertexId v) { return orient(a, b, mesh.point(v)); };
+  const auto starts_at = [&](const WayPart& part, VertexId v) {
+    return part.triangle.is_none() ? mesh.from(part.along) == v
+                                   : has_corner(mesh, part.triangle, v);
+  };
+  if (!way.entry.is_none()) {
+    ASSERT_EQ(mesh.apex(way.entry), Triangulation::infinite);
+    ASSERT_EQ(way.parts.at(0).triangle, Triangulation::triangle(mesh.twin(way.entry)));
+  }
+  if (!way.start.is_none()) {
+    ASSERT_EQ(side(way.start), 0);
+    ASSERT_TRUE(way.parts.empty() || starts_at(way.parts[0], way.start));
+  }
+  for (std::size_t i = 0; i < way.parts.size(); ++i) {
+    const WayPart& part = way.parts[i];
+    ASSERT_NE(part.triangle.is_none(), part.along.is_none());
+    const bool is_last = i + 1 == way.parts.size();
+    if (!part.exit.is_none()) {
+      ASSERT_EQ(Triangulation::triangle(part.exit), part.triangle);
+      ASSERT_LT(side(mesh.from(part.exit)) * side(mesh.to(part.exit)), 0);
+      const TriangleId beyond = Triangulation::triangle(mesh.twin(part.exit));
+      ASSERT_TRUE(is_last ? mesh.is_infinite(beyond) : way.parts[i + 1].triangle == beyond);
+    } else if (!part.end.is_none()) {
+      ASSERT_EQ(side(part.end), 0);
+      ASSERT_TRUE(is_last || starts_at(way.parts[i + 1], part.end));
+    } else {
+      ASSERT_TRUE(is_last);
+    }
+  }
+}
+
 void expect_right_passed(const Triangulation& mesh, Point a, Point b) {
   std::vector<TriangleId> passed = crossed_triangles(mesh, a, b);
   for (std::size_t i = 1; i < passed.size(); ++i)
     ASSERT_TRUE(is_before(mesh, passed[i - 1], passed[i], a)) << a << b << ", " << i;
   std::ranges::sort(passed);
   ASSERT_EQ(passed, passed_by_looking_at_all(mesh, a, b)) << a << b;
+  ASSERT_NO_FATAL_FAILURE(expect_joined(mesh, a, b)) << a << b;
 }
 
 // --- Triangulations and places to ask about ---
