@@ -318,8 +318,9 @@ CLI::App* add_view(CLI::App& app, ViewCommand& command) {
 
 /// Adds `loft live`; the command is ready when the line has been parsed.
 CLI::App* add_live(CLI::App& app, LiveCommand& command) {
-  CLI::App* sub = app.add_subcommand(
-      "live", "Play with shapes, maps and paths in a browser: what is dragged, all else follows");
+  CLI::App* sub = app.add_subcommand("live",
+                                     "Play with shapes, maps, paths, fields and classes in a "
+                                     "browser: all else follows what is dragged");
   sub->add_option("SCENE", command.scene,
                   "Scene to open, " + loft::io::scene_extensions() + ", or a table of points, " +
                       loft::io::point_table_extensions() +
