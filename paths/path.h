@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <string_view>
 #include <vector>
 
 #include "cdt/point.h"
@@ -20,6 +21,9 @@ enum class Status {
   goal_blocked,   ///< the same of the goal, where the start is free
   gave_up,        ///< the query's bound on expansions was met, or, for a disc, rounding hid the way
 };
+
+/// As it is told: "found", "start blocked".
+[[nodiscard]] std::string_view name_of(Status status);
 
 /// From where to where.
 struct Query {

@@ -14,6 +14,7 @@
 #include "overlay/overlay.h"
 #include "paths/distance.h"
 #include "paths/planner.h"
+#include "paths/walk.h"
 #include "samples/drawing.h"
 
 namespace {
@@ -26,13 +27,14 @@ using loft::overlay::Ring;
 using loft::overlay::RingId;
 using loft::paths::distance_between;
 using loft::paths::FreeSpace;
+using loft::paths::length;
 using loft::paths::Path;
 using loft::paths::PathId;
 using loft::paths::Piece;
 using loft::paths::Planner;
+using loft::paths::point_on;
 using loft::paths::Query;
 using loft::paths::Status;
-using loft::paths::Turn;
 using samples::Dice;
 using samples::Drawing;
 using samples::fill;
@@ -129,35 +131,13 @@ void drift(std::vector<Box>& boxes, std::size_t which, Point agent) {
   }
 }
 
-double angle_of(const Piece& arc) {
-  const Point a{arc.from.x - arc.centre.x, arc.from.y - arc.centre.y};
-  const Point b{arc.to.x - arc.centre.x, arc.to.y - arc.centre.y};
-  return std::atan2(a.x * b.y - a.y * b.x, a.x * b.x + a.y * b.y);
-}
-
-double length_of(const Piece& piece) {
-  if (piece.turn == Turn::straight) return distance_between(piece.from, piece.to);
-  return std::abs(angle_of(piece)) * distance_between(piece.centre, piece.from);
-}
-
-/// The point that has that part of a piece behind it.
-Point point_on(const Piece& piece, double part) {
-  const Point a = piece.from;
-  if (piece.turn == Turn::straight)
-    return {a.x + part * (piece.to.x - a.x), a.y + part * (piece.to.y - a.y)};
-  const Point m = piece.centre;
-  const double c = std::cos(part * angle_of(piece));
-  const double s = std::sin(part * angle_of(piece));
-  return {m.x + c * (a.x - m.x) - s * (a.y - m.y), m.y + s * (a.x - m.x) + c * (a.y - m.y)};
-}
-
 /// Takes the first of a way off; returns where it then begins.
 Point walk(Path& way, Point from, double distance) {
   while (!way.pieces.empty()) {
     Piece& piece = way.pieces.front();
-    const double length = length_of(piece);
-    if (distance < length) return piece.from = point_on(piece, distance / length);
-    distance -= length;
+    const double here = length(piece);
+    if (distance < here) return piece.from = point_on(piece, distance / here);
+    distance -= here;
     from = piece.to;
     way.pieces.erase(way.pieces.begin());
   }

@@ -2,6 +2,7 @@
 #include "app/commands/path_outputs.h"
 
 #include <cmath>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -13,6 +14,8 @@ namespace loft::app {
 namespace {
 
 using paths::Status;
+
+std::string word_of(Status status) { return std::string(name_of(status)); }
 
 /// `null` where there is no path.
 std::string length_text(const paths::Path& path, const char* nothing) {
@@ -39,29 +42,13 @@ std::vector<cdt::Point> line_of(const FoundPath& found) {
 
 }  // namespace
 
-const char* name(Status status) {
-  switch (status) {
-    case Status::found:
-      return "found";
-    case Status::unreachable:
-      return "unreachable";
-    case Status::start_blocked:
-      return "start blocked";
-    case Status::goal_blocked:
-      return "goal blocked";
-    case Status::gave_up:
-      break;
-  }
-  return "gave up";
-}
-
 Json count_by_status(std::span<const FoundPath> paths) {
   Json counts = Json::object();
   for (const Status status : {Status::found, Status::unreachable, Status::start_blocked,
                               Status::goal_blocked, Status::gave_up}) {
     std::size_t count = 0;
     for (const FoundPath& one : paths) count += one.path.status == status ? 1U : 0U;
-    if (count > 0) counts[name(status)] = count;
+    if (count > 0) counts[word_of(status)] = count;
   }
   return counts;
 }
@@ -70,7 +57,7 @@ std::string table_of(std::span<const FoundPath> paths) {
   std::string table = "query,edit,status,radius,length,points\r\n";
   for (const FoundPath& one : paths)
     table += std::to_string(one.query) + ',' + std::to_string(one.edit) + ',' +
-             name(one.path.status) + ',' + exact(one.asked.radius) + ',' +
+             word_of(one.path.status) + ',' + exact(one.asked.radius) + ',' +
              length_text(one.path, "") + ',' + points_cell(one) + "\r\n";
   return table;
 }
@@ -81,7 +68,7 @@ io::Map map_of(std::span<const FoundPath> paths) {
     io::Feature& feature = map.features.emplace_back();
     feature.properties = "{\"query\":" + std::to_string(one.query) +
                          ",\"edit\":" + std::to_string(one.edit) + ",\"status\":\"" +
-                         name(one.path.status) + "\",\"radius\":" + exact(one.asked.radius) +
+                         word_of(one.path.status) + "\",\"radius\":" + exact(one.asked.radius) +
                          ",\"length\":" + length_text(one.path, "null") + '}';
     if (auto line = line_of(one); !line.empty()) feature.lines.push_back(std::move(line));
   }
@@ -99,8 +86,9 @@ void draw(io::PathPicture& picture, std::span<const FoundPath> paths) {
 Json report_of(std::span<const FoundPath> paths) {
   Json report = Json::array();
   for (const FoundPath& one : paths) {
-    Json entry{{"query", one.query},         {"edit", one.edit},  {"status", name(one.path.status)},
-               {"radius", one.asked.radius}, {"length", nullptr}, {"expansions", one.expansions}};
+    Json entry{
+        {"query", one.query},         {"edit", one.edit},  {"status", word_of(one.path.status)},
+        {"radius", one.asked.radius}, {"length", nullptr}, {"expansions", one.expansions}};
     if (one.path.status == Status::found) entry["length"] = one.path.length;
     report.push_back(std::move(entry));
   }

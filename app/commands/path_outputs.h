@@ -22,9 +22,6 @@ struct FoundPath {
   std::size_t expansions = 0;  ///< the steps that it took
 };
 
-/// `found`, `start blocked`
-[[nodiscard]] const char* name(paths::Status status);
-
 /// How many paths there are of each status, by its name; those that none has are left out.
 [[nodiscard]] Json count_by_status(std::span<const FoundPath> paths);
 

@@ -6,11 +6,11 @@
 #include <numbers>
 #include <utility>
 
-#include "app/live/walk.h"
 #include "io/planar/path_points.h"
 #include "overlay/area.h"
 #include "paths/channel.h"
 #include "paths/clearance.h"
+#include "paths/walk.h"
 
 namespace loft::app {
 
@@ -23,22 +23,6 @@ using paths::Path;
 using paths::Status;
 
 constexpr double pause = 0.5;  // seconds between attempts of an agent that has no way
-
-const char* word_of(Status status) {
-  switch (status) {
-    case Status::found:
-      return "found";
-    case Status::unreachable:
-      return "unreachable";
-    case Status::start_blocked:
-      return "start blocked";
-    case Status::goal_blocked:
-      return "goal blocked";
-    case Status::gave_up:
-      return "gave up";
-  }
-  return "";
-}
 
 /// 4 to 8 corners on an ellipse.
 Ring random_ring(Dice& dice, Point middle, double across, double deep) {
@@ -168,7 +152,7 @@ ItemId PathsScene::add_agent(Point start) {
 }
 
 Point PathsScene::place_of(const Agent& agent) const {
-  return point_along(agent.way, agent.from, pace_ * (time_ - agent.since));
+  return paths::point_along(agent.way, agent.from, pace_ * (time_ - agent.since));
 }
 
 /// Where it stands is rounded, so that it may be nearer to a corner than its radius, by a hair: it
@@ -249,7 +233,7 @@ void PathsScene::replan_broken(Json& change) {
 
 Json PathsScene::as_json(ItemId id, const Agent& agent) const {
   Json json{{"id", id},
-            {"status", word_of(agent.way.status)},
+            {"status", paths::name_of(agent.way.status)},
             {"since", agent.since},
             {"goal", app::as_json(agent.goal)}};
   const bool is_found = agent.way.status == Status::found;
