@@ -13,7 +13,6 @@ namespace loft::app {
 namespace {
 
 using namespace testing;
-using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -48,7 +47,7 @@ std::string field(const std::string& event, const std::string& name) {
 }
 
 TEST_F(Live, HasATabForEachApplication) {
-  const json tabs = json::parse(client_->Get("/tabs")->body);
+  const nlohmann::json tabs = nlohmann::json::parse(client_->Get("/tabs")->body);
   EXPECT_EQ(tabs["first"], "shapes");
   EXPECT_GE(tabs["tabs"].size(), 3U);
   EXPECT_THAT(client_->Get("/")->body, HasSubstr("<title>"));
@@ -89,7 +88,7 @@ TEST_F(Live, SaysWhatIsWrong) {
   EXPECT_EQ(client_->Get("/tabs/map/owners?at=x")->status, 400);
   EXPECT_EQ(client_->Get("/events?tab=weather")->status, 404);
   EXPECT_EQ(client_->Put("/tabs/shapes", "{}", "application/json")->status, 405);
-  EXPECT_EQ(json::parse(post("shapes", "[]")->body)["error"], "an edit is an object");
+  EXPECT_EQ(nlohmann::json::parse(post("shapes", "[]")->body)["error"], "an edit is an object");
 }
 
 TEST_F(Live, IsForItsOwnPageAlone) {
@@ -104,9 +103,11 @@ TEST_F(Live, IsForItsOwnPageAlone) {
 }
 
 TEST_F(Live, AnswersQuestionsAndGivesEdges) {
-  const json owners = json::parse(client_->Get("/tabs/map/owners?at=60,50")->body);
+  const nlohmann::json owners =
+      nlohmann::json::parse(client_->Get("/tabs/map/owners?at=60,50")->body);
   EXPECT_EQ(owners["inside"].size(), 1U);
-  const json clearance = json::parse(client_->Get("/tabs/paths/clearance?at=1,50")->body);
+  const nlohmann::json clearance =
+      nlohmann::json::parse(client_->Get("/tabs/paths/clearance?at=1,50")->body);
   EXPECT_EQ(clearance["clearance"], 1.0);
   EXPECT_GT(client_->Get("/tabs/map/edges")->body.size(), 16U * 4000);
 }
@@ -120,7 +121,7 @@ TEST(LiveCommand, OpensASceneInItsTab) {
     words.insert(words.begin(), {"live", "map.geojson", "--port", "0"});
     const Running running(folder, words);
     const auto client = running.client();
-    const json tabs = json::parse(client->Get("/tabs")->body);
+    const nlohmann::json tabs = nlohmann::json::parse(client->Get("/tabs")->body);
     const std::string owners = client->Get("/tabs/map/owners?at=3,1")->body;
     return std::pair(tabs["first"].get<std::string>(), owners);
   };

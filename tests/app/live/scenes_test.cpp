@@ -180,7 +180,8 @@ TEST_P(AnyScene, IsKnownFromItsStateAndChanges) {
     } catch (const std::invalid_argument&) {
     }
     if (const Json change = scene->advance(0.05); !change.is_null()) page.take(change);
-    if (i % 10 == 0) ASSERT_EQ(page, Page(scene->state())) << i;
+    if (i % 10 != 0) continue;
+    ASSERT_EQ(page, Page(scene->state())) << i;
   }
   EXPECT_GT(taken, 60);
 }
