@@ -266,9 +266,9 @@ std::string FieldScene::raster() const {
   const double bottom = box_.high.y - static_cast<double>(grid.rows) * step;
   for (const double number : {static_cast<double>(grid.columns), static_cast<double>(grid.rows),
                               low, high, box_.low.x, bottom, right, box_.high.y})
-    append_number(bytes, number);
+    append_float(bytes, number);
   fields::rasterize(field_, grid, smoothness(), [&](std::size_t, std::span<const double> values) {
-    for (const double value : values) append_number(bytes, value);
+    for (const double value : values) append_float(bytes, value);
   });
   return bytes;
 }

@@ -27,7 +27,7 @@ std::optional<double> number_of(const io::Feature& feature, const char* key) {
 }
 
 void append_edge(std::string& bytes, Point a, Point b) {
-  for (const double number : {a.x, a.y, b.x, b.y}) append_number(bytes, number);
+  for (const double number : {a.x, a.y, b.x, b.y}) append_float(bytes, number);
 }
 
 /// Each edge between finite vertices, once.
@@ -99,7 +99,7 @@ Json all_of_result(const Overlay& overlay, overlay::ResultId result) {
   return result_as_json(overlay, result, overlay.border(result));
 }
 
-void append_number(std::string& bytes, double number) {
+void append_float(std::string& bytes, double number) {
   const auto bits = std::bit_cast<std::uint32_t>(static_cast<float>(number));
   for (unsigned shift = 0; shift < 32; shift += 8)
     bytes += static_cast<char>(static_cast<unsigned char>(bits >> shift));

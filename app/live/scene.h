@@ -74,7 +74,7 @@ inline constexpr std::size_t most_items = 20'000;
 [[nodiscard]] Json all_of_result(const overlay::Overlay& overlay, overlay::ResultId result);
 
 /// As 4 bytes, lowest first.
-void append_number(std::string& bytes, double number);
+void append_float(std::string& bytes, double number);
 /// The edges of a triangulation as such numbers, x, y, x, y of each: how many are free, as an edge
 /// of four times that number, the free ones, then the constrained ones.
 [[nodiscard]] std::string edges_as_bytes(const cdt::Triangulation& mesh);
