@@ -153,8 +153,10 @@ bool CsvRows::parse_row() {
   if (!parser_->is_row_there) return false;
   const std::string_view text = parser_->text;
   std::size_t begin = 0;
-  for (const std::size_t end : parser_->ends)
-    cells_.push_back(text.substr(std::exchange(begin, end), end - begin));
+  for (const std::size_t end : parser_->ends) {
+    cells_.push_back(text.substr(begin, end - begin));
+    begin = end;
+  }
   return true;
 }
 
