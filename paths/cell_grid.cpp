@@ -30,14 +30,13 @@ void CellGrid::lay_out(const cdt::Box& box, std::size_t segments) {
   cells_.assign(columns_ * columns_, {});
 }
 
-std::size_t CellGrid::column(double x) const {
-  const double at = (x - box_.low.x) * per_x_;
-  return at > 0 ? std::min(columns_ - 1, static_cast<std::size_t>(at)) : 0;
-}
+std::size_t CellGrid::column(double x) const { return rank((x - box_.low.x) * per_x_); }
+std::size_t CellGrid::row(double y) const { return rank((y - box_.low.y) * per_y_); }
 
-std::size_t CellGrid::row(double y) const {
-  const double at = (y - box_.low.y) * per_y_;
-  return at > 0 ? std::min(columns_ - 1, static_cast<std::size_t>(at)) : 0;
+/// In a row or column, however far out it is.
+std::size_t CellGrid::rank(double at) const {
+  const auto last = static_cast<double>(columns_ - 1);
+  return at > 0 ? static_cast<std::size_t>(std::min(at, last)) : 0;
 }
 
 /// Row by row, between where the segment comes in and goes out.

@@ -37,6 +37,7 @@ class CellGrid {
   void for_each_cell(cdt::Point from, cdt::Point to, double margin, Visit visit) const;
   [[nodiscard]] std::size_t column(double x) const;
   [[nodiscard]] std::size_t row(double y) const;
+  [[nodiscard]] std::size_t rank(double at) const;
 
   cdt::Box box_;
   std::size_t columns_ = 0;

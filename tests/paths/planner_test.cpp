@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+#include <vector>
 
+#include "paths/cell_grid.h"
 #include "paths/visible.h"
 #include "tests/overlay/boxes.h"
 
@@ -174,6 +177,24 @@ TEST(Planner, PathsComeAndGo) {
   here.space.follow();
   EXPECT_THAT(named(here.planner.after_edit()), IsEmpty());
   EXPECT_EQ(here.planner.keep({.from = {1, 1}, .to = {2, 1}}), path) << "ids are used again";
+}
+
+TEST(CellGrid, KnowsWhatIsFarOutside) {
+  CellGrid grid;
+  cdt::Box box;
+  box.add({0, 0});
+  box.add({1, 1});
+  grid.lay_out(box, 100);
+  const CellGrid::Item far{.owner = 1, .part = 2};
+  grid.add(far, {0.5, 0.5}, {5e73, 5e73}, 0);
+  for (const Point low : {Point{0.45, 0.45}, Point{4e73, 4e73}}) {
+    cdt::Box around;
+    around.add(low);
+    around.add({low.x * 1.2, low.y * 1.2});
+    std::vector<CellGrid::Item> found;
+    grid.find(around, found);
+    EXPECT_NE(std::find(found.begin(), found.end(), far), found.end()) << low;
+  }
 }
 
 }  // namespace
