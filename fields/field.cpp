@@ -2,7 +2,6 @@
 #include "fields/field.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -31,7 +30,8 @@ template <class... Words>
 void check_usable(const Sample& sample) {
   if (!Triangulation::is_usable(sample.place))
     refuse("sample at ", sample.place, ": its coordinates are not usable");
-  if (!std::isfinite(sample.value)) refuse("sample at ", sample.place, ": its value is not finite");
+  if (!Field::is_usable(sample.value))
+    refuse("sample at ", sample.place, ": its value is not finite, or beyond 1e150");
 }
 
 void check_values(std::span<const Point> points, std::span<const double> values,
@@ -40,8 +40,8 @@ void check_values(std::span<const Point> points, std::span<const double> values,
     refuse("line at ", points.front(), ": ", values.size(), ' ', which, " for ", points.size(),
            " points");
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!std::isfinite(values[i]))
-      refuse("line, point ", i, ", ", points[i], ": its value is not finite");
+    if (!Field::is_usable(values[i]))
+      refuse("line, point ", i, ", ", points[i], ": its value is not finite, or beyond 1e150");
 }
 
 }  // namespace

@@ -117,14 +117,21 @@ enum class Outside {
 /// Reading from several threads at once is safe while nobody edits.
 class Field {
  public:
+  /// Beyond it products of two values overflow.
+  static constexpr double largest_value = 1e150;
+  /// Whether a field takes a value: up to that in magnitude.
+  [[nodiscard]] static constexpr bool is_usable(double value) {
+    return value <= largest_value && value >= -largest_value;
+  }
+
   explicit Field(OnConflict policy = OnConflict::mean);
   ~Field();
   Field(Field&&) noexcept;
   Field& operator=(Field&&) noexcept;
 
   // Edits. Each throws std::invalid_argument, and then changes nothing, if a coordinate is not
-  // usable (Triangulation::is_usable), a value is not finite, a line has fewer than two different
-  // points or not as many values as it needs, or an id names nothing.
+  // usable (Triangulation::is_usable), a value is not (is_usable), a line has fewer than two
+  // different points or not as many values as it needs, or an id names nothing.
 
   SampleId insert(const Sample& sample);
   /// Many at once: the same, but faster.

@@ -126,8 +126,12 @@ Field field_of(const FieldCommand& command, const FieldInputs& inputs) {
   // Conflicts are all listed, and refused then.
   Field field(command.on_conflict == fields::OnConflict::refuse ? fields::OnConflict::mean
                                                                 : command.on_conflict);
-  (void)field.insert(inputs.samples);
   io::Problems problems;
+  for (const fields::Sample& sample : inputs.samples)
+    if (!Field::is_usable(sample.value))
+      problems.add(shown_name(command.samples) + ": at " + exact(sample.place.x) + ", " +
+                   exact(sample.place.y) + ": a value beyond 1e150");
+  if (problems.is_empty()) (void)field.insert(inputs.samples);
   for (const io::FieldLine& line : inputs.lines) {
     try {
       (void)field.insert(line.view());
@@ -135,7 +139,7 @@ Field field_of(const FieldCommand& command, const FieldInputs& inputs) {
       problems.add(line.place + error.what());
     }
   }
-  problems.raise(command.lines ? shown_name(*command.lines) : "");
+  problems.raise(shown_name(command.samples));
   return field;
 }
 
@@ -180,9 +184,13 @@ std::vector<double> round_levels(const Range& range, std::size_t count) {
   for (const double times : {2.0, 5.0, 10.0})
     if (std::abs(std::log(times * power / gap)) < std::abs(std::log(step / gap)))
       step = times * power;
-  // As multiples, so that they are as round as they can be.
-  for (double i = std::floor(range.least / step) + 1; i * step < range.most; ++i)
-    levels.push_back(i * step);
+  // As multiples, so that they are as round as they can be; so large that they run together, fewer.
+  const double first = std::floor(range.least / step) + 1;
+  for (std::size_t i = 0; i < 4 * count; ++i) {
+    const double level = (first + static_cast<double>(i)) * step;
+    if (!(level < range.most)) break;
+    if (levels.empty() || level > levels.back()) levels.push_back(level);
+  }
   return levels;
 }
 

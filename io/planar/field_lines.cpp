@@ -2,7 +2,6 @@
 #include "io/planar/field_lines.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -91,7 +90,8 @@ class FieldLineReader {
         return;
       }
       given.numbers.push_back(json.number());
-      if (!std::isfinite(given.numbers.back())) complain(place, key + ": a number too large");
+      if (!fields::Field::is_usable(given.numbers.back()))
+        complain(place, key + ": a number beyond 1e150");
     };
     if (json.peek() == JsonKind::null) {
       json.skip();
@@ -145,7 +145,7 @@ class FieldLineReader {
 
   std::vector<double> heights(GeoShape& shape, const std::string& place, std::size_t count) {
     if (shape.heights.size() == count &&
-        std::ranges::all_of(shape.heights, [](double z) { return std::isfinite(z); }))
+        std::ranges::all_of(shape.heights, fields::Field::is_usable))
       return std::move(shape.heights);
     complain(
         place,

@@ -258,6 +258,7 @@ TEST(Field, RefusesWhatItCannotUse) {
   EXPECT_THROW(field.insert(Sample{{nan, 0}, 1}), std::invalid_argument);
   EXPECT_THROW(field.insert(Sample{{0, 1e80}, 1}), std::invalid_argument);
   EXPECT_THROW(field.insert(Sample{{0, 0}, nan}), std::invalid_argument);
+  EXPECT_THROW(field.insert(Sample{{0, 0}, -1e200}), std::invalid_argument);
   EXPECT_THROW(field.insert(Line{}), std::invalid_argument);
   const Points twice{{1, 1}, {1, 1}};
   EXPECT_THROW(field.insert(Line{.points = twice, .kind = LineKind::soft}), std::invalid_argument);

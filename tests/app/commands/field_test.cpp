@@ -90,6 +90,17 @@ TEST(FieldCommand, DrawsIsolinesAndBands) {
   EXPECT_EQ(bands[1]["properties"]["area"], 50);
 }
 
+TEST(FieldCommand, FindsLevelsWhereNumbersAreFarApart) {
+  const Roof roof;
+  static_cast<void>(
+      roof.folder.write("high.csv", "x,y,z\n0,0,1e17\n1,0,100000000000000128\n0,1,1e17\n"));
+  for (const char* count : {"1", "20", "10000"}) {
+    const Outcome outcome = run(
+        roof.folder, std::string("field high.csv --json --isolines ") + count + " -o high.geojson");
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  }
+}
+
 TEST(FieldCommand, MeasuresVolumes) {
   const Roof roof;
   const Outcome outcome =
