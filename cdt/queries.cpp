@@ -40,6 +40,13 @@ VertexId nearest_vertex(const Triangulation& mesh, Point p) {
   return nearest;
 }
 
+Box bounding_box(const Triangulation& mesh) {
+  Box box;
+  for (std::uint32_t v = 1; v < mesh.vertex_bound(); ++v)
+    if (mesh.is_vertex(VertexId(v))) box.add(mesh.point(VertexId(v)));
+  return box;
+}
+
 namespace {
 
 /// Follows a segment from triangle to triangle.

@@ -12,6 +12,9 @@ namespace loft::cdt {
 /// Cost: that of locate(), then the triangles nearer than the answer.
 [[nodiscard]] VertexId nearest_vertex(const Triangulation& mesh, Point point);
 
+/// The box around all vertices; empty if there are none. Cost: O(vertices).
+[[nodiscard]] Box bounding_box(const Triangulation& mesh);
+
 /// A part of a straight way, from one edge or vertex on it to the next: inside a triangle, or along
 /// an edge.
 struct WayPart {

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The values at corners where nothing gives one: on soft lines and beside barriers.
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <unordered_set>
 #include <vector>
 
+#include "cdt/each_once.h"
+#include "cdt/sector.h"
 #include "fields/field_parts.h"
 #include "fields/fit.h"
 #include "fields/kept.h"
@@ -29,16 +30,9 @@ bool is_before(Point p, Point q, Point a, Point b) {
 class Rings {
  public:
   Rings(const Field& field, EdgeId e) : field_(field) {
-    EdgeId first = e;
-    while (!field.is_separating(first)) {
-      first = Triangulation::next(field.mesh().twin(first));
-      if (first == e) break;
-    }
-    EdgeId here = first;
-    do {
-      enter(Triangulation::triangle(here));
-      here = field.mesh().rotated(here);
-    } while (here != first && !field.is_separating(here));
+    cdt::visit_sector(
+        field.mesh(), e, [&](EdgeId side) { return field.is_separating(side); },
+        [&](EdgeId here) { enter(Triangulation::triangle(here)); });
   }
 
   [[nodiscard]] const std::vector<TriangleId>& outermost() const { return outermost_; }
@@ -92,11 +86,8 @@ double Field::find_derived_value(EdgeId e) const {
 }
 
 double Field::firm_value(EdgeId e) const {
-  EdgeId first = e;
-  while (!is_separating(first)) {
-    first = Triangulation::next(mesh_.twin(first));
-    if (first == e) break;
-  }
+  const EdgeId first =
+      cdt::sector_begin(mesh_, e, [&](EdgeId side) { return is_separating(side); });
   if (const auto value = firm_value_beside(first, true)) return *value;
   EdgeId last = mesh_.rotated(e);
   while (last != e && !is_separating(last)) last = mesh_.rotated(last);
@@ -144,8 +135,7 @@ double Field::fit_from_around(EdgeId e) const {
           around.push_back({mesh_.point(mesh_.from(c)), given});
       }
     // In an order that depends on nothing but the coordinates.
-    std::sort(around.begin(), around.end());
-    around.erase(std::unique(around.begin(), around.end()), around.end());
+    cdt::keep_each_once(around);
     if (around.size() < enough_values) continue;
     if (const auto value = plane_value(at, around)) return *value;
   } while ((around.empty() || rings.size() < most_triangles) && rings.widen());

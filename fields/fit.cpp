@@ -22,6 +22,11 @@ constexpr double least_curvature = 1e-2;
 
 struct Moments {
   double xx = 0, xy = 0, yy = 0;
+  void add(double weight, Vector d) {
+    xx += weight * d.x * d.x;
+    xy += weight * d.x * d.y;
+    yy += weight * d.y * d.y;
+  }
   [[nodiscard]] double trace() const { return xx + yy; }
   [[nodiscard]] bool is_flat(double limit = flatness) const {
     return !(xx * yy - xy * xy > limit * trace() * trace());
@@ -54,9 +59,7 @@ class Plane {
     return 1 / dot(d, d);
   }
   void add(double weight, Vector d, double rise) {
-    moments_.xx += weight * d.x * d.x;
-    moments_.xy += weight * d.x * d.y;
-    moments_.yy += weight * d.y * d.y;
+    moments_.add(weight, d);
     rise_ = rise_ + weight * rise * d;
   }
   [[nodiscard]] Vector slope() const {
@@ -152,10 +155,7 @@ Vector gradient_along_line(cdt::Point at, double value, const std::vector<Around
   Moments moments;
   for (const Around& a : around) {
     const Vector d = way(at, a.place);
-    const double weight = 1 / dot(d, d);
-    moments.xx += weight * d.x * d.x;
-    moments.xy += weight * d.x * d.y;
-    moments.yy += weight * d.y * d.y;
+    moments.add(1 / dot(d, d), d);
   }
   return moments.is_flat();
 }

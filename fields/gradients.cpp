@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // The gradients at corners of triangles, each fitted to the values around in its sector.
-#include <algorithm>
 #include <vector>
 
+#include "cdt/each_once.h"
+#include "cdt/sector.h"
 #include "fields/field.h"
 #include "fields/fit.h"
 #include "fields/kept.h"
@@ -16,16 +17,6 @@ bool parts_gradients(const Field& field, EdgeId e) {
   return field.is_separating(e) || field.is_crease(e);
 }
 
-/// The first edge of the sector of an edge, clockwise; itself if nothing parts any.
-EdgeId begin_of_sector(const Field& field, EdgeId e) {
-  EdgeId first = e;
-  while (!parts_gradients(field, first)) {
-    first = Triangulation::next(field.mesh().twin(first));
-    if (first == e) break;
-  }
-  return first;
-}
-
 }  // namespace
 
 Vector Field::corner_gradient(EdgeId e) const {
@@ -35,14 +26,13 @@ Vector Field::corner_gradient(EdgeId e) const {
   if (kept.holds()) return gradients_[e.index()];
   bool reads_derived = false;
   if (!kept.begin()) return find_gradient(e, reads_derived);
-  EdgeId here = begin_of_sector(*this, e);
-  const EdgeId first = here;
+  const auto parts = [&](EdgeId side) { return parts_gradients(*this, side); };
+  const EdgeId first = cdt::sector_begin(mesh_, e, parts);
+  EdgeId here = first;
   do {
     const Vector gradient = is_infinite(here) ? Vector{} : find_gradient(here, reads_derived);
-    do {
-      gradients_[here.index()] = gradient;
-      here = mesh_.rotated(here);
-    } while (here != first && !parts_gradients(*this, here));
+    here = cdt::visit_sector(mesh_, here, parts,
+                             [&](EdgeId corner) { gradients_[corner.index()] = gradient; });
   } while (here != first);
   kept.keep(reads_derived);
   return gradients_[e.index()];
@@ -59,24 +49,21 @@ Vector Field::find_gradient(EdgeId e, bool& reads_derived) const {
       around.push_back({mesh_.point(mesh_.from(corner)), value});
   };
   reads_derived = reads_derived || values_[e.index()] != values_[e.index()];
-  const EdgeId first = begin_of_sector(*this, e);
-  const bool is_part = parts_gradients(*this, first);
-  EdgeId here = first;
-  do {
+  const auto parts = [&](EdgeId side) { return parts_gradients(*this, side); };
+  const bool is_part = parts(cdt::sector_begin(mesh_, e, parts));
+  cdt::visit_sector(mesh_, e, parts, [&](EdgeId here) {
     const EdgeId opposite = Triangulation::next(here);
     look_at(opposite);
     look_at(Triangulation::prev(here));
-    if (!parts_gradients(*this, opposite)) {
+    if (!parts(opposite)) {
       const EdgeId beyond = mesh_.twin(opposite);
       look_at(Triangulation::prev(beyond));
       if (is_part)
         for (const EdgeId side : {Triangulation::next(beyond), Triangulation::prev(beyond)})
-          if (!parts_gradients(*this, side)) look_at(Triangulation::prev(mesh_.twin(side)));
+          if (!parts(side)) look_at(Triangulation::prev(mesh_.twin(side)));
     }
-    here = mesh_.rotated(here);
-  } while (here != first && !parts_gradients(*this, here));
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
+  });
+  cdt::keep_each_once(around);
   const double value = corner_value(e);
   if (around.empty() || !(value == value)) return {};
   return fit_gradient(mesh_.point(mesh_.from(e)), value, around);

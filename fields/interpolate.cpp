@@ -6,6 +6,7 @@
 #include "cdt/predicates.h"
 #include "fields/along.h"
 #include "fields/field_parts.h"
+#include "fields/if_any.h"
 #include "fields/patch.h"
 
 namespace loft::fields {
@@ -13,10 +14,6 @@ namespace loft::fields {
 using cdt::Location;
 
 namespace {
-
-std::optional<double> if_any(double value) {
-  return value == value ? std::optional(value) : std::nullopt;
-}
 
 /// The edge of the hull that an infinite triangle is beyond.
 EdgeId hull_edge(const Triangulation& mesh, EdgeId e) {

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "cdt/each_once.h"
 #include "fields/level.h"
 
 namespace loft::fields {
@@ -90,8 +91,7 @@ class Joiner {
 
 std::vector<Isoline> isolines(const Field& field, std::span<const double> levels) {
   std::vector<double> sorted(levels.begin(), levels.end());
-  std::sort(sorted.begin(), sorted.end());
-  sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+  cdt::keep_each_once(sorted);
   const std::vector<std::vector<TriangleId>> crossed = crossed_by(field, sorted);
   std::vector<Isoline> lines;
   for (std::size_t i = 0; i < sorted.size(); ++i) Joiner(field, sorted[i]).join(crossed[i], lines);

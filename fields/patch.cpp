@@ -71,9 +71,7 @@ void Patch::bend(const Field& field, TriangleId t) {
   for (unsigned i = 0; i < 3; ++i, e = Triangulation::next(e))
     gradients_[i] = field.corner_gradient(e);
 
-  const Point middle{
-      corners_[0].x + (way(corners_[0], corners_[1]).x + way(corners_[0], corners_[2]).x) / 3,
-      corners_[0].y + (way(corners_[0], corners_[1]).y + way(corners_[0], corners_[2]).y) / 3};
+  const Point middle = centroid(corners_[0], corners_[1], corners_[2]);
   std::array<double, 3> inward{};  // on the way from a corner to the middle
   for (unsigned i = 0; i < 3; ++i)
     inward[i] = values_[i] + dot(gradients_[i], way(corners_[i], middle)) / 3;

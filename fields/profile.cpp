@@ -6,6 +6,7 @@
 
 #include "cdt/predicates.h"
 #include "cdt/queries.h"
+#include "fields/if_any.h"
 #include "fields/patch.h"
 
 namespace loft::fields {
@@ -45,10 +46,6 @@ class Viewer {
   }
 
  private:
-  [[nodiscard]] static std::optional<double> if_any(double value) {
-    return value == value ? std::optional(value) : std::nullopt;
-  }
-
   const Field& field_;
   Smoothness smoothness_;
 };

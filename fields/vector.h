@@ -23,4 +23,9 @@ struct Vector {
   return {to.x - from.x, to.y - from.y};
 }
 
+/// The middle of a triangle.
+[[nodiscard]] inline cdt::Point centroid(cdt::Point a, cdt::Point b, cdt::Point c) {
+  return {a.x + (way(a, b).x + way(a, c).x) / 3, a.y + (way(a, b).y + way(a, c).y) / 3};
+}
+
 }  // namespace loft::fields

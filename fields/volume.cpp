@@ -130,9 +130,7 @@ class Cuts {
 /// The heights of a field at the corners of a triangle that is inside one of its own.
 std::optional<std::array<double, 3>> heights_at(const Field& field,
                                                 const std::array<Point, 3>& corners) {
-  const Point middle{
-      corners[0].x + (way(corners[0], corners[1]).x + way(corners[0], corners[2]).x) / 3,
-      corners[0].y + (way(corners[0], corners[1]).y + way(corners[0], corners[2]).y) / 3};
+  const Point middle = centroid(corners[0], corners[1], corners[2]);
   const cdt::Location place = field.mesh().locate(middle);
   if (place.kind == cdt::Location::Kind::nowhere) return std::nullopt;
   const EdgeId e = place.kind == cdt::Location::Kind::edge ? field.seen_from(place.edge, Side::left)

@@ -23,6 +23,8 @@
 #include "app/report.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
+#include "cdt/each_once.h"
+#include "cdt/queries.h"
 #include "fields/volume.h"
 #include "io/bytes/file.h"
 #include "io/bytes/problems.h"
@@ -197,17 +199,13 @@ std::vector<double> round_levels(const Range& range, std::size_t count) {
 std::vector<double> levels_of(const FieldCommand& command, const Range& range) {
   if (command.levels.empty()) return round_levels(range, command.isolines.value_or(usual_levels));
   std::vector<double> levels = command.levels;
-  std::ranges::sort(levels);
-  const auto rest = std::ranges::unique(levels);
-  levels.erase(rest.begin(), rest.end());
+  cdt::keep_each_once(levels);
   return levels;
 }
 
 /// Square cells over all there is, the first at the top left.
 fields::Grid grid_over(const FieldCommand& command, const Field& field) {
-  cdt::Box box;
-  for (std::uint32_t v = 1; v < field.mesh().vertex_bound(); ++v)
-    if (field.mesh().is_vertex(cdt::VertexId(v))) box.add(field.mesh().point(cdt::VertexId(v)));
+  const cdt::Box box = cdt::bounding_box(field.mesh());
   const double width = box.high.x - box.low.x;
   const double height = box.high.y - box.low.y;
   const GridSize size = command.grid.value_or(GridSize{usual_pixels, usual_pixels});

@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "cdt/queries.h"
 #include "fields/isolines.h"
 #include "io/planar/palette.h"
 #include "io/planar/svg_frame.h"
@@ -24,17 +25,13 @@ using cdt::Triangulation;
 using fields::Field;
 using fields::LineKind;
 
-cdt::Box box_of(const Field& field) {
-  cdt::Box box;
-  for (std::uint32_t v = 1; v < field.mesh().vertex_bound(); ++v)
-    if (field.mesh().is_vertex(cdt::VertexId(v))) box.add(field.mesh().point(cdt::VertexId(v)));
-  return box;
-}
-
 class FieldSvgWriter {
  public:
   FieldSvgWriter(std::ostream& out, const FieldPicture& picture, double width)
-      : out_(out), picture_(picture), field_(*picture.field), frame_(box_of(field_), width) {}
+      : out_(out),
+        picture_(picture),
+        field_(*picture.field),
+        frame_(cdt::bounding_box(field_.mesh()), width) {}
 
   void write() {
     out_ << frame_.opening() << "<title>Values over the plane</title>\n";

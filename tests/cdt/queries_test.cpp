@@ -322,5 +322,16 @@ TEST(CrossedTriangles, ThroughManyVerticesNeedNoStack) {
   EXPECT_GT(crossed_triangles(mesh, {-5, 0.5}, {3e5, 0.5}).size(), 399990U);
 }
 
+TEST(BoundingBox, IsAroundAllVertices) {
+  Triangulation mesh;
+  EXPECT_TRUE(bounding_box(mesh).is_empty());
+  mesh.insert(Point{3, -1});
+  const VertexId gone = mesh.insert(Point{9, 9});
+  mesh.insert(Point{-2, 4});
+  mesh.remove(gone);
+  EXPECT_EQ(bounding_box(mesh).low, Point(-2, -1));
+  EXPECT_EQ(bounding_box(mesh).high, Point(3, 4));
+}
+
 }  // namespace
 }  // namespace loft::cdt
