@@ -119,21 +119,6 @@ export class Classes extends TabWithLines {
     }
   }
 
-  drawFront(board) {
-    const chosen = this.things.get(this.chosen);
-    if (!chosen) return;
-    if (chosen.isLine) {
-      this.drawLine(board, chosen, 'accent', 3);
-      return this.drawHandles(board, chosen, 'accent');
-    }
-    board.enterPage();
-    board.pen.strokeStyle = board.colour('accent');
-    board.pen.lineWidth = 2.5;
-    board.pen.beginPath();
-    board.pen.arc(...board.toPage(chosen.at), 7, 0, 2 * Math.PI);
-    board.pen.stroke();
-  }
-
   hover(p, near) {
     const id = this.find(p, near);
     return id === undefined ? '' : this.nameOf(id);

@@ -166,18 +166,7 @@ export class Fields extends TabWithLines {
       this.drawLine(board, line, 'profile', 2, [7, 5]);
       this.drawHandles(board, line, 'profile');
     }
-    const chosen = this.things.get(this.chosen);
-    if (!chosen) return;
-    if (chosen.isLine) {
-      this.drawLine(board, chosen, 'accent', 3);
-      return this.drawHandles(board, chosen, 'accent');
-    }
-    board.enterPage();
-    board.pen.strokeStyle = board.colour('accent');
-    board.pen.lineWidth = 2.5;
-    board.pen.beginPath();
-    board.pen.arc(...board.toPage(chosen.at), 7, 0, 2 * Math.PI);
-    board.pen.stroke();
+    super.drawFront(board);
   }
 
   hover(p) {

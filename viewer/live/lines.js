@@ -58,6 +58,22 @@ export class TabWithLines extends Tab {
     };
   }
 
+  // What is chosen: a line with its corners, or a ring around a point.
+  drawFront(board) {
+    const chosen = this.things.get(this.chosen);
+    if (!chosen) return;
+    if (chosen.isLine) {
+      this.drawLine(board, chosen, 'accent', 3);
+      return this.drawHandles(board, chosen, 'accent');
+    }
+    board.enterPage();
+    board.pen.strokeStyle = board.colour('accent');
+    board.pen.lineWidth = 2.5;
+    board.pen.beginPath();
+    board.pen.arc(...board.toPage(chosen.at), 7, 0, 2 * Math.PI);
+    board.pen.stroke();
+  }
+
   drawHandles(board, line, colour) {
     const { pen } = board;
     board.enterPage();
