@@ -5,9 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/meshes.h"
 #include "tests/app/running.h"
@@ -69,6 +73,96 @@ TEST(View, ShowsAllFacesOfAMeshInChunks) {
   EXPECT_EQ(running.interrupt(), 0);
 }
 
+/// Four slices of a cube of 3, and a smaller one in it.
+std::string two_cubes() {
+  std::string lines;
+  for (int z = 0; z < 4; ++z) {
+    std::string contours = R"([[0, 0], [3, 0], [3, 3], [0, 3]])";
+    std::string labels = R"("Body 1")";
+    if (z < 2) {
+      contours += ", [[1, 1], [2, 1], [2, 2], [1, 2]]";
+      labels += R"(, "heart")";
+    }
+    lines += R"({"z": )" + std::to_string(z) + R"(, "contours": [)" + contours +
+             R"(], "labels": [)" + labels + "]}\n";
+  }
+  return lines;
+}
+
+/// GLBs that follow one another, each in a file.
+std::vector<std::string> apart(std::string_view glbs) {
+  std::vector<std::string> files;
+  while (glbs.size() >= 12) {
+    std::uint32_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      size |= std::uint32_t{static_cast<unsigned char>(glbs[8 + i])} << (8 * i);
+    files.emplace_back(glbs.substr(0, size));
+    glbs.remove_prefix(std::min<std::size_t>(size, glbs.size()));
+  }
+  return files;
+}
+
+json extras_of(const std::string& glb) {
+  const std::size_t end = glb.find("BIN", 20);
+  return json::parse(
+      glb.substr(20, end == std::string::npos ? end : end - 24))["nodes"][0]["extras"];
+}
+
+/// Asks for all slabs until all are there; how many faces they have together.
+std::size_t bundled_face_count(const Folder& folder, httplib::Client& client) {
+  std::set<std::string> missing;
+  for (const json& slab : first_event(client)["slabs"]) missing.insert(slab["id"]);
+  std::size_t count = 0;
+  while (!missing.empty()) {
+    std::string ids;
+    for (const std::string& id : missing) ids += (ids.empty() ? "" : ",") + id;
+    const auto answer = client.Get("/slabs?ids=" + ids);
+    EXPECT_EQ(answer->status, 200);
+    if (answer->status != 200) return 0;
+    for (const std::string& glb : apart(answer->body)) {
+      for (const json& slab : extras_of(glb)["slabs"])
+        EXPECT_EQ(missing.erase(slab["id"].get<std::string>()), 1U);
+      std::ofstream(folder / "slab.glb", std::ios::binary) << glb;
+      count += io::read_mesh(folder / "slab.glb").faces.size();
+    }
+  }
+  return count;
+}
+
+TEST(View, SendsManySlabsAtOnce) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << tower(1200);
+  ASSERT_EQ(run(folder, "stream --session kept -o out.ply").exit_code, 0);
+  for (const char* file : {"kept", "out.ply"}) {
+    Running running(folder, {"view", file, "--port", "0"});
+    const auto client = running.client();
+    const std::size_t faces = io::read_mesh(folder / "out.ply").faces.size();
+    EXPECT_EQ(bundled_face_count(folder, *client), faces) << file;
+    EXPECT_EQ(client->Get("/slabs?ids=0-99999,3-0..7")->status, 404);
+    for (const char* wrong : {"", "0", "0-", "0-1,", "0-3..1", "0-1234567890", "a-1", "0-1;0-2"})
+      EXPECT_EQ(client->Get(std::string("/slabs?ids=") + wrong)->status, 400) << wrong;
+    EXPECT_EQ(client->Get("/slabs")->status, 400);
+  }
+}
+
+TEST(View, ABundleHasWhatEachOfItsSlabsHas) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << two_cubes();
+  ASSERT_EQ(run(folder, "stream --session kept").exit_code, 0);
+  Running running(folder, {"view", "kept", "--port", "0"});
+  const auto client = running.client();
+  for (const std::string& bundle : apart(client->Get("/slabs?ids=0-0..99,1-0..99")->body)) {
+    const json all = extras_of(bundle);
+    for (const json& slab : all["slabs"]) {
+      const auto alone = client->Get("/slabs/" + slab["id"].get<std::string>() + ".glb");
+      const json own = extras_of(alone->body);
+      EXPECT_EQ(all["label"], own["label"]);
+      for (const char* what : {"low", "high", "edit", "confidence"})
+        EXPECT_EQ(slab[what], own[what]) << what;
+    }
+  }
+}
+
 TEST(View, GivesTheFileItselfAndTakesNothing) {
   const Folder folder;
   std::ofstream(folder / "tower.ndjson") << tower(3);
@@ -95,22 +189,6 @@ TEST(View, ShowsTheSurfaceOfASession) {
   EXPECT_EQ(client->Post("/slices", tower(1), "application/x-ndjson")->status, 405);
   EXPECT_EQ(running.interrupt(), 0);
   EXPECT_EQ(content(folder / "kept"), before);
-}
-
-/// Four slices of a cube of 3, and a smaller one in it.
-std::string two_cubes() {
-  std::string lines;
-  for (int z = 0; z < 4; ++z) {
-    std::string contours = R"([[0, 0], [3, 0], [3, 3], [0, 3]])";
-    std::string labels = R"("Body 1")";
-    if (z < 2) {
-      contours += ", [[1, 1], [2, 1], [2, 2], [1, 2]]";
-      labels += R"(, "heart")";
-    }
-    lines += R"({"z": )" + std::to_string(z) + R"(, "contours": [)" + contours +
-             R"(], "labels": [)" + labels + "]}\n";
-  }
-  return lines;
 }
 
 void expect_two_cubes(httplib::Client& client, std::size_t slices, std::size_t inner_slices) {
