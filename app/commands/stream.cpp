@@ -152,11 +152,18 @@ class Stream {
  private:
   [[nodiscard]] Capture::Setup setup() {
     Capture::Setup setup = setup_of(command_);
+    setup.name = name();
     if (command_.replay)
       setup.observe = [this](const NetChange& change, const CaptureView& view) {
         recorder_.add(change, view);
       };
     return setup;
+  }
+
+  /// Of the file that stands for it; empty if there is none.
+  [[nodiscard]] std::string name() const {
+    if (command_.session) return command_.session->filename().string();
+    return is_file(command_.input) ? command_.input->filename().string() : "";
   }
 
   void serve() {
