@@ -49,19 +49,6 @@ Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::spa
   return {rounded.rounding()};
 }
 
-/// Whether `float` says nothing about what is smaller than a share of it all.
-bool is_far_from_zero(const Box3& box) {
-  constexpr double share = 0x1p-13;
-  constexpr double last_place = 0x1p-23;
-  double size = 0;
-  double distance = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    size = std::max(size, box.high[axis] - box.low[axis]);
-    distance = std::max({distance, std::abs(box.low[axis]), std::abs(box.high[axis])});
-  }
-  return distance * last_place > size * share;
-}
-
 /// Near the middle of a box, in round numbers: multiples of a power of ten that is no larger than
 /// the box.
 Vec3 round_place_near(const Box3& box) {
@@ -83,7 +70,7 @@ Written write_as_they_are(const SurfaceWriter& format, std::ostream& out,
     format.write(out, rounded.parts(), options);
     return Written{rounded.rounding(), options.origin};
   };
-  if (options.origin || !is_far_from_zero(box)) {
+  if (options.origin || !is_coarse(box, 0x1p-13)) {
     const RoundedParts rounded(parts, {options.origin.value_or(Vec3{})}, true);
     if (options.origin || rounded.rounding().left == 0) return write_about(rounded);
     const RoundedParts about_near(parts, {round_place_near(box)}, true);
