@@ -20,6 +20,7 @@
 #include "app/commands/reconstruct_report.h"
 #include "app/commands/take_over.h"
 #include "app/commands/volume_table.h"
+#include "app/commands/written.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
@@ -220,19 +221,20 @@ void say_compression(const ReconstructCommand& command, std::span<const io::Part
                io::short_number(io::quantisation_error(parts)) + ' ' + command.unit);
 }
 
-void write_all(const ReconstructCommand& command, const std::vector<io::Part>& parts) {
+void write_all(const ReconstructCommand& command, const std::vector<io::Part>& parts,
+               Terminal& terminal) {
   std::vector<std::string> labels;
   for (const io::Part& part : parts) labels.push_back(part.label);
   for (const path& output : command.outputs) {
     if (!is_per_label(output)) {
       if (is_interrupted()) throw Cancelled();
-      io::write(output, parts, write_options(command));
+      tell(output, io::write(output, parts, write_options(command)), terminal);
       continue;
     }
     const std::vector<path> files = label_files(output, labels);
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (is_interrupted()) throw Cancelled();
-      io::write(files[i], {&parts[i], 1}, write_options(command));
+      tell(files[i], io::write(files[i], {&parts[i], 1}, write_options(command)), terminal);
     }
   }
 }
@@ -284,7 +286,7 @@ void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& repo
   std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
   stopwatch.lap();
   const std::vector<io::Part> parts = parts_of(command, stack, results);
-  write_all(command, parts);
+  write_all(command, parts, terminal);
   say_compression(command, parts, terminal);
   report.seconds["write"] = stopwatch.lap();
   for (Result& result : results) {

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "io/gltf/label_colour.h"
+#include "io/meshes/label_colour.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 

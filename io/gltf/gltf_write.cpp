@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <optional>
 #include <set>
 #include <utility>
@@ -18,6 +17,7 @@
 #include "io/gltf/shading.h"
 #include "io/gltf/skin.h"
 #include "mesh/vec3.h"
+#include "io/meshes/extent.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -29,40 +29,21 @@ Vec3 place_of(const Surface& surface, Surface::VertexHandle vertex) {
   return {point[0], point[1], point[2]};
 }
 
-/// What all parts are in.
-struct PartBox {
-  static constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity};
-  Vec3 high{-infinity, -infinity, -infinity};
+Frame frame_of(std::span<const Part> parts, const WriteOptions& options) {
+  return {options.origin ? *options.origin : centre_of(extent(parts)), options.metres_per_unit};
+}
 
-  explicit PartBox(std::span<const Part> parts) {
-    for (const Part& part : parts) {
-      for (const auto vertex : part.surface->vertices()) add(place_of(*part.surface, vertex));
-      for (const ContourLine& contour : part.contours)
-        for (const Vec3& point : contour.points) add(point);
-    }
-    if (!(low[0] <= high[0])) low = high = {};
-  }
-
-  void add(const Vec3& point) {
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      low[axis] = std::min(low[axis], point[axis]);
-      high[axis] = std::max(high[axis], point[axis]);
-    }
-  }
-
-  [[nodiscard]] Frame frame(double metres_per_unit) const {
-    return {{low[0] / 2 + high[0] / 2, low[1] / 2 + high[1] / 2, low[2] / 2 + high[2] / 2},
-            metres_per_unit};
-  }
-
-  /// Around the frame's centre, its axes turned.
-  [[nodiscard]] Grid grid(const Frame& frame) const {
-    const Vec3 a = frame.relative(low);
-    const Vec3 b = frame.relative(high);
-    return {{a[0], a[1], b[2]}, {b[0], b[1], a[2]}};
-  }
-};
+/// Of all that parts have, around the frame's centre, its axes turned.
+Grid grid_of(std::span<const Part> parts, const Frame& frame) {
+  Box3 box = extent(parts);
+  for (const Part& part : parts)
+    for (const ContourLine& contour : part.contours)
+      for (const Vec3& point : contour.points) box = extended(box, point);
+  if (!(box.low[0] <= box.high[0])) return {{}, {}};
+  const Vec3 a = frame.relative(box.low);
+  const Vec3 b = frame.relative(box.high);
+  return {{a[0], a[1], b[2]}, {b[0], b[1], a[2]}};
+}
 
 bool is_open(const Surface& surface) {
   return std::ranges::any_of(surface.halfedges(),
@@ -108,8 +89,8 @@ std::vector<std::uint32_t> sides_of(std::span<const ContourLine> contours) {
 class Composer {
  public:
   Composer(std::span<const Part> parts, const WriteOptions& options)
-      : parts_(parts), options_(options), box_(parts), frame_(box_.frame(options.metres_per_unit)) {
-    if (options.compression != Compression::none) grid_ = box_.grid(frame_);
+      : parts_(parts), options_(options), frame_(frame_of(parts, options)) {
+    if (options.compression != Compression::none) grid_ = grid_of(parts, frame_);
   }
 
   void write(std::ostream& out, bool binary) {
@@ -267,7 +248,6 @@ class Composer {
 
   std::span<const Part> parts_;
   const WriteOptions& options_;
-  PartBox box_;
   Frame frame_;
   std::optional<Grid> grid_;
   tinygltf::Model model_ = empty_model();
@@ -287,9 +267,8 @@ void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptio
 }
 
 double quantisation_error(std::span<const Part> parts) {
-  const PartBox box(parts);
-  const Frame frame = box.frame(1);
-  const Grid grid = box.grid(frame);
+  const Frame frame = frame_of(parts, {.metres_per_unit = 1});
+  const Grid grid = grid_of(parts, frame);
   double most = 0;
   for (const Part& part : parts) {
     for (const auto vertex : part.surface->vertices()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf/label_colour.h"
+#include "io/meshes/label_colour.h"
 
 #include <algorithm>
 #include <cmath>
