@@ -15,9 +15,9 @@
 #include "io/gltf/node_extras.h"
 #include "io/gltf/packed.h"
 #include "io/gltf/shading.h"
-#include "io/gltf/skin.h"
-#include "mesh/vec3.h"
 #include "io/meshes/extent.h"
+#include "io/meshes/skin.h"
+#include "mesh/vec3.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -95,7 +95,6 @@ class Composer {
 
   void write(std::ostream& out, bool binary) {
     model_.asset.extras = extras(options_);
-    part_count_ = std::ranges::count_if(parts_, has_faces);
     for (const Part& part : parts_) {
       if (!has_faces(part)) continue;
       add_surface(part);
@@ -119,7 +118,7 @@ class Composer {
   void add_surface(const Part& part) {
     const bool has_rim = is_open(*part.surface);
     tinygltf::Material look = material(name_of(part), has_rim, part.colour);
-    if (part_count_ > 1 && is_skin(part.label, part.kind)) {  // alone it hides nothing
+    if (is_see_through(part, parts_)) {
       look.alphaMode = "BLEND";
       look.pbrMetallicRoughness.baseColorFactor[3] = skin_opacity;
     }
@@ -253,7 +252,6 @@ class Composer {
   tinygltf::Model model_ = empty_model();
   Buffer buffer_{model_};
   std::set<int> octahedral_;  // views of normals
-  std::ptrdiff_t part_count_ = 0;
 };
 
 }  // namespace

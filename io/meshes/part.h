@@ -55,6 +55,8 @@ struct WriteOptions {
   std::vector<std::string> sources = {};
   std::map<std::string, std::string> settings = {};
   Compression compression = Compression::none;  ///< of glTF
+  /// The file of materials that an OBJ names, beside it (materials.h); empty: none.
+  std::string materials = {};
 };
 
 }  // namespace loft::io

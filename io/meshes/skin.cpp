@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf/skin.h"
+#include "io/meshes/skin.h"
 
 #include <algorithm>
 #include <array>
@@ -59,6 +59,11 @@ bool is_skin(std::string_view label, std::string_view kind) {
     begin = std::find_if(end, name.end(), is_letter);
   }
   return is_named;
+}
+
+bool is_see_through(const Part& part, std::span<const Part> parts) {
+  const auto has_faces = [](const Part& other) { return other.surface->n_faces() > 0; };
+  return std::ranges::count_if(parts, has_faces) > 1 && is_skin(part.label, part.kind);
 }
 
 }  // namespace loft::io

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <span>
 #include <string_view>
+
+#include "io/meshes/part.h"
 
 namespace loft::io {
 
@@ -10,6 +13,9 @@ namespace loft::io {
 /// (DICOM, StackLabel::kind); else its name, which then says no more than that: `BODY`, `External`,
 /// `skin outline 2`, but not `external iliac artery`.
 [[nodiscard]] bool is_skin(std::string_view label, std::string_view kind = {});
+
+/// Whether a part is to be seen through: a skin that is not alone among those with faces.
+[[nodiscard]] bool is_see_through(const Part& part, std::span<const Part> parts);
 
 /// How much of a skin is seen: the alpha of its material.
 inline constexpr double skin_opacity = 0.25;
