@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Many slabs in one draw call: they share buffers, in which each has a slot with room to spare, so
 // that a slab of about the same size can take the slot of one that is gone.
-import { BatchedMesh, Box3, BufferAttribute, BufferGeometry, Vector3 } from 'three';
+import { BatchedMesh, Box3, BufferAttribute, BufferGeometry, Vector3, Vector4 } from 'three';
 
 function withRoom(count) {
   return Math.ceil((count * 1.25 + 16) / 64) * 64;
@@ -48,8 +48,24 @@ export class Batch {
     this.#free.push(slot);
   }
 
-  setColour(slot, colour) {
-    this.#mesh.setColorAt(slot.instance, colour);
+  // `opacity` counts where the material is transparent.
+  setColour(slot, { r, g, b }, opacity = 1) {
+    this.#mesh.setColorAt(slot.instance, new Vector4(r, g, b, opacity));
+  }
+
+  setVisible(slot, isVisible) {
+    this.#mesh.setVisibleAt(slot.instance, isVisible);
+  }
+
+  // What add() was given, as another batch can take it.
+  contentOf(slot) {
+    const { attributes: { position, normal }, index } = this.#mesh.geometry;
+    const { vertexStart, vertexCount, indexStart, indexCount } =
+      this.#mesh.getGeometryRangeAt(slot.geometry);
+    const [from, to] = [3 * vertexStart, 3 * (vertexStart + vertexCount)];
+    return { positions: position.array.slice(from, to), normals: normal.array.slice(from, to),
+             indices: index.array.slice(indexStart, indexStart + indexCount)
+               .map((vertex) => vertex - vertexStart) };
   }
 
   #reuse(geometry) {

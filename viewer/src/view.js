@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: MIT
 // The picture of the surface: what the server says goes in, frames come out.
 import { Box3 } from 'three';
-import { Batch, diagonal } from './batch.js';
-import { colouring, explain } from './colours.js';
+import { diagonal } from './batch.js';
+import { colouring, explain, hexOf } from './colours.js';
 import { Contours } from './contours.js';
 import { Frame, nameOf } from './frame.js';
 import { Highlight } from './highlight.js';
+import { Layers } from './layers.js';
 import { Lines } from './lines.js';
 import { Loader } from './loader.js';
 import { hitAt, nearestPoint } from './pick.js';
@@ -20,7 +21,8 @@ const lossAfter = 2000;   // ms for which an event may be behind
 
 export class View {
   #panel;
-  #batch;
+  #labels;
+  #layers;
   #slabs;
   #slots = new Map();  // by slab, if it is shown and not empty
   #contours;
@@ -43,22 +45,26 @@ export class View {
   #settings;
   #legend = document.getElementById('legend');
 
-  // lose() is called when what is shown here is not what the server has.
-  constructor(canvas, labels, panel, lose) {
+  // `lengths` are texts for the box's sides; lose() is called when what is shown here is not what
+  // the server has.
+  constructor(canvas, lengths, panel, labels, lose) {
     this.#panel = panel;
+    this.#labels = labels;
     this.#lose = lose;
     this.stage = new Stage(canvas);
-    this.#batch = new Batch(this.stage.scene, this.stage.material);
+    this.#layers = new Layers(this.stage.scene, this.stage.material, labels);
     this.#slabs = new Slabs((slab) => this.#show(slab), (slab) => this.#hide(slab));
     this.#contours = new Contours(this.#loader, (slice) => this.#draw(slice));
     this.#lines = new Lines(this.stage.scene);
-    this.#surroundings = new Surroundings(this.stage.scene, labels);
+    this.#surroundings = new Surroundings(this.stage.scene, lengths);
     this.#chosen = new Highlight(this.stage.scene, 2.5);
     this.#picked = new Highlight(this.stage.scene, 4);
     this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
     this.stage.onFrame(() => this.#prepare());
     this.stage.onResize(() => { if (!this.#wasMoved && this.#frame) this.fit(); });
     setInterval(() => this.#settle(), settleEvery);
+    labels.addEventListener('look', ({ detail }) => this.#applyLook(detail));
+    labels.addEventListener('list', () => this.#applyLook('opacity'));
   }
 
   get heights() { return this.#contours.heights; }
@@ -116,17 +122,18 @@ export class View {
   }
 
   fit() {
-    this.#wasMoved = false;
-    this.stage.fit(this.#box());
+    this.#wasMoved = this.#labels.isAnyHidden;  // what is hidden does not matter now
+    this.stage.fit(this.#box(({ label }) => this.#labels.isShown(label)));
   }
 
   // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
   // that point, if there is any.
   async pick(x, y) {
-    const hit = hitAt(this.stage, this.#batch.mesh, x, y);
-    const slab = hit && [...this.#slots].find(([, slot]) => slot.instance === hit.batchId)?.[0];
+    const hit = this.#layers.meshes.map((mesh) => hitAt(this.stage, mesh, x, y)).find(Boolean);
+    const slab = hit && [...this.#slots].find(([, slot]) => this.#layers.isHit(slot, hit))?.[0];
     this.forgetPick();
     if (!slab) return undefined;
+    this.#labels.choose(slab.label);
     const pick = this.#picks;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
     if (pick !== this.#picks) return undefined;
@@ -194,8 +201,8 @@ export class View {
     if (this.#frame?.isFarFrom(slab.translation)) this.#leave();
     if (!this.#frame) this.#begin(slab);
     slab.positions = this.#frame.place(slab.positions, slab.translation);
-    const slot = this.#batch.add(slab);
-    this.#slots.set(slab, slot);
+    this.#labels.enter(slab.label, hexOf(slab));
+    this.#slots.set(slab, this.#layers.add(slab));
     for (const bulk of ['positions', 'normals', 'indices']) delete slab[bulk];
     this.#refreshLater();
   }
@@ -204,14 +211,18 @@ export class View {
     const slot = this.#slots.get(slab);
     if (!slot) return;
     this.#slots.delete(slab);
-    this.#batch.remove(slot);
+    this.#layers.remove(slot);
+    this.#labels.leave(slab.label);
     this.#refreshLater();
   }
 
   // What comes is so far away that both can't be shown: the old is what goes.
   #leave() {
     this.forgetPick();
-    for (const slot of this.#slots.values()) this.#batch.remove(slot);
+    for (const [slab, slot] of this.#slots) {
+      this.#layers.remove(slot);
+      this.#labels.leave(slab.label);
+    }
     this.#slots.clear();
     this.#frame = undefined;
     this.#wasMoved = false;
@@ -238,8 +249,8 @@ export class View {
 
   #refresh() {
     this.#isStale = false;
-    const colours = colouring(this.#mode, [...this.#slots.keys()]);
-    for (const [slab, slot] of this.#slots) this.#batch.setColour(slot, colours.of(slab));
+    const colours = colouring(this.#mode, [...this.#slots.keys()], this.#labels);
+    for (const [slab, slot] of this.#slots) this.#layers.setColour(slot, colours.of(slab));
     explain(this.#legend, colours);
     if (!this.#frame) return;
     const box = this.#box();
@@ -248,10 +259,17 @@ export class View {
     else this.stage.fit(box);
   }
 
-  #box() {
+  #box(isIn = () => true) {
     const all = new Box3();
-    for (const slot of this.#slots.values()) all.union(slot.box);
+    for (const slot of this.#slots.values()) if (isIn(slot)) all.union(slot.box);
     return all;
+  }
+
+  #applyLook(what) {
+    if (what === 'visibility') this.#layers.applyVisibility();
+    else if (what === 'opacity') this.#layers.applyOpacity();
+    else this.#isStale = true;
+    this.stage.invalidate();
   }
 
   #applyCut(cut) {
@@ -260,7 +278,7 @@ export class View {
       this.stage.cut.normal.set(0, cut.keepsBelow ? -1 : 1, 0);
       this.stage.cut.constant = cut.keepsBelow ? y : -y;
     }
-    this.stage.setCut([this.stage.material, this.#lines.material], cut !== undefined);
+    this.stage.setCut([...this.#layers.materials, this.#lines.material], cut !== undefined);
   }
 
   #applyContours(areShown) {
