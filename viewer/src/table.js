@@ -6,14 +6,15 @@ import { count, number } from './text.js';
 const element = (id) => document.getElementById(id);
 const { compare } = new Intl.Collator('en', { numeric: true });
 
-// `name` and `unit` for the heading, and `text` for people; CSV has the numbers as they are.
-function columnsIn({ volumeUnit, areaUnit }) {
+// `name` and `unit` for the heading, and `text` for people; in CSV the numbers are as they are, and
+// the headings as `loft reconstruct --csv` writes them.
+function columnsIn({ plain, volumeUnit, areaUnit }) {
   return [
-    { key: 'label', name: 'Label', text: (label) => label || 'no label' },
-    { key: 'slices', name: 'Slices', text: count },
-    { key: 'volume', name: 'Volume', unit: volumeUnit, text: number },
-    { key: 'area', name: 'Area', unit: areaUnit, text: number },
-    { key: 'faces', name: 'Triangles', text: count },
+    { key: 'label', name: 'Label', csv: 'label', text: (label) => label || 'no label' },
+    { key: 'slices', name: 'Slices', csv: 'slices', text: count },
+    { key: 'volume', name: 'Volume', unit: volumeUnit, csv: `volume_${plain}3`, text: number },
+    { key: 'area', name: 'Area', unit: areaUnit, csv: `area_${plain}2`, text: number },
+    { key: 'faces', name: 'Triangles', csv: 'triangles', text: count },
   ];
 }
 
@@ -31,7 +32,7 @@ function quoted(value) {
 }
 
 export function toCsv(rows, columns) {
-  const lines = [columns.map(heading), ...rows.map((row) => columns.map(({ key }) => row[key]))];
+  const lines = [columns.map(({ csv }) => csv), ...rows.map((row) => columns.map(({ key }) => row[key]))];
   return lines.map((line) => `${line.map(quoted).join(',')}\r\n`).join('');
 }
 

@@ -17,6 +17,8 @@ export class Measure {
     this.#factor = metresPerUnit / metres;
   }
 
+  // Without letters that not every program reads.
+  get plain() { return this.name.replace('µ', 'u'); }
   get volumeUnit() { return `${this.name}³`; }
   get areaUnit() { return `${this.name}²`; }
   volume(value) { return value * this.#factor ** 3; }
