@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <ostream>
 #include <string_view>
 
@@ -10,25 +12,100 @@
 #include "io/bytes/file.h"
 #include "io/bytes/format_table.h"
 #include "io/gltf/gltf.h"
+#include "io/meshes/extent.h"
 #include "io/meshes/obj.h"
 #include "io/meshes/off.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/stl.h"
+#include "io/rounding/rounded_parts.h"
 
 namespace loft::io {
 
 namespace {
 
+/// How a format keeps coordinates.
+enum class Coordinates { exact, float_in_metres, float_as_they_are };
+
 struct SurfaceWriter {
   std::string_view extension;
   void (*write)(std::ostream&, std::span<const Part>, const WriteOptions&);
+  Coordinates coordinates = Coordinates::exact;
 };
 
 constexpr std::array surface_writers{
-    SurfaceWriter{".glb", write_glb}, SurfaceWriter{".gltf", write_gltf},
-    SurfaceWriter{".ply", write_ply}, SurfaceWriter{".obj", write_obj},
-    SurfaceWriter{".stl", write_stl}, SurfaceWriter{".off", write_off},
+    SurfaceWriter{".glb", write_glb, Coordinates::float_in_metres},
+    SurfaceWriter{".gltf", write_gltf, Coordinates::float_in_metres},
+    SurfaceWriter{".ply", write_ply},
+    SurfaceWriter{".obj", write_obj},
+    SurfaceWriter{".stl", write_stl, Coordinates::float_as_they_are},
+    SurfaceWriter{".off", write_off},
 };
+
+Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::span<const Part> parts,
+                        WriteOptions options) {
+  if (!options.origin) options.origin = centre_of(extent(parts));
+  const RoundedParts rounded(parts, {*options.origin, options.metres_per_unit}, false);
+  format.write(out, rounded.parts(), options);
+  return {rounded.rounding()};
+}
+
+/// Whether `float` says nothing about what is smaller than a share of it all.
+bool is_far_from_zero(const Box3& box) {
+  constexpr double share = 0x1p-13;
+  constexpr double last_place = 0x1p-23;
+  double size = 0;
+  double distance = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    size = std::max(size, box.high[axis] - box.low[axis]);
+    distance = std::max({distance, std::abs(box.low[axis]), std::abs(box.high[axis])});
+  }
+  return distance * last_place > size * share;
+}
+
+/// Near the middle of a box, in round numbers: multiples of a power of ten that is no larger than
+/// the box.
+Vec3 round_place_near(const Box3& box) {
+  double size = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    size = std::max(size, box.high[axis] - box.low[axis]);
+  if (!(size > 0)) return centre_of(box);
+  const double step = std::pow(10, std::floor(std::log10(size)));
+  Vec3 place = centre_of(box);
+  for (double& coordinate : place) coordinate = std::round(coordinate / step) * step;
+  return place;
+}
+
+/// About 0, if that is any good.
+Written write_as_they_are(const SurfaceWriter& format, std::ostream& out,
+                          std::span<const Part> parts, WriteOptions options) {
+  const Box3 box = extent(parts);
+  const auto write_about = [&](const RoundedParts& rounded) {
+    format.write(out, rounded.parts(), options);
+    return Written{rounded.rounding(), options.origin};
+  };
+  if (options.origin || !is_far_from_zero(box)) {
+    const RoundedParts rounded(parts, {options.origin.value_or(Vec3{})}, true);
+    if (options.origin || rounded.rounding().left == 0) return write_about(rounded);
+    const RoundedParts about_near(parts, {round_place_near(box)}, true);
+    if (about_near.rounding().left >= rounded.rounding().left) return write_about(rounded);
+  }
+  options.origin = round_place_near(box);
+  return write_about(RoundedParts(parts, {*options.origin}, true));
+}
+
+Written write_surfaces(const SurfaceWriter& format, std::ostream& out, std::span<const Part> parts,
+                       const WriteOptions& options) {
+  switch (format.coordinates) {
+    case Coordinates::float_in_metres:
+      return write_in_metres(format, out, parts, options);
+    case Coordinates::float_as_they_are:
+      return write_as_they_are(format, out, parts, options);
+    case Coordinates::exact:
+      break;
+  }
+  format.write(out, parts, options);
+  return {};
+}
 
 }  // namespace
 
@@ -39,17 +116,19 @@ void check_writable(const std::filesystem::path& path) {
   const AtomicFile tried(path);
 }
 
-void write(const std::filesystem::path& path, std::span<const Part> parts,
-           const WriteOptions& options) {
+Written write(const std::filesystem::path& path, std::span<const Part> parts,
+              const WriteOptions& options) {
   const SurfaceWriter& format = format_of(surface_writers, path);
   AtomicFile file(path);
-  format.write(file.stream(), parts, options);
+  const Written written = write_surfaces(format, file.stream(), parts, options);
   file.commit();
+  return written;
 }
 
-void write(std::ostream& out, std::string_view extension, std::span<const Part> parts,
-           const WriteOptions& options) {
-  format_of(surface_writers, "surface" + std::string(extension)).write(out, parts, options);
+Written write(std::ostream& out, std::string_view extension, std::span<const Part> parts,
+              const WriteOptions& options) {
+  const SurfaceWriter& format = format_of(surface_writers, "surface" + std::string(extension));
+  return write_surfaces(format, out, parts, options);
 }
 
 }  // namespace loft::io

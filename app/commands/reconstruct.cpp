@@ -17,6 +17,7 @@
 #include "app/commands/reconstruct_report.h"
 #include "app/commands/take_over.h"
 #include "app/commands/volume_table.h"
+#include "app/commands/written.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
@@ -191,7 +192,7 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
 }
 
 void write_all(const ReconstructCommand& command, const Stack& stack,
-               const std::list<Result>& results) {
+               const std::list<Result>& results, Terminal& terminal) {
   std::vector<io::Part> parts;
   for (const Result& result : results) {
     const StackLabel* const label = stack.find_label(result.report.label);
@@ -203,13 +204,13 @@ void write_all(const ReconstructCommand& command, const Stack& stack,
   for (const path& output : command.outputs) {
     if (!is_per_label(output)) {
       if (is_interrupted()) throw Cancelled();
-      io::write(output, parts, write_options(command));
+      tell(output, io::write(output, parts, write_options(command)), terminal);
       continue;
     }
     const std::vector<path> files = label_files(output, labels);
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (is_interrupted()) throw Cancelled();
-      io::write(files[i], {&parts[i], 1}, write_options(command));
+      tell(files[i], io::write(files[i], {&parts[i], 1}, write_options(command)), terminal);
     }
   }
 }
@@ -260,7 +261,7 @@ void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& repo
   options.reports_slabs = command.json && command.slabs;
   std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
   stopwatch.lap();
-  write_all(command, stack, results);
+  write_all(command, stack, results, terminal);
   report.seconds["write"] = stopwatch.lap();
   for (Result& result : results) {
     for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;

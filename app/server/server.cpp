@@ -77,7 +77,7 @@ class Server::Routes {
   }
 
   [[nodiscard]] std::string methods(const std::string& path) const {
-    static const std::regex known(R"(/|/slices|/events|/status|/surface\..*|/slabs/.*)");
+    static const std::regex known(R"(/|/slices|/events|/status|/labels|/surface\..*|/slabs/.*)");
     if (capture_ != nullptr && path == "/slices") return "GET, HEAD, POST";
     return std::regex_match(path, known) ? "GET, HEAD" : "";
   }
@@ -96,6 +96,9 @@ class Server::Routes {
              [this](const Request& request, Response& response) { surface(request, response); });
     http.Get("/events", [this](const Request& request, Response& response) {
       site_.stream(request, response, feed_, [this] { return shown_.reset_event(); });
+    });
+    http.Get("/labels", [this](const Request&, Response& response) {
+      answer(response, 200, to_json(shown_.labels()));
     });
     http.Get("/status", [this](const Request&, Response& response) {
       Json status = shown_.status();

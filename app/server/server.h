@@ -30,6 +30,8 @@ namespace loft::app {
 ///     GET /events             server-sent events: `reset` with all that there is, then `change`
 ///                             for each edit; a reader that comes back with Last-Event-ID, or
 ///                             ?after= with the last one's id, gets what it has missed
+///     GET /labels             of each label: colour, slices, volume, area, whether it is a skin
+///                             (shown_label.h)
 ///     GET /status             counts, latencies, memory
 ///     GET /                   the viewer
 ///

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "app/json.h"
+#include "app/server/shown_label.h"
 #include "reconstruct/slice.h"
 
 namespace loft::app {
@@ -20,10 +21,13 @@ class Shown {
   virtual ~Shown() = default;
 
   /// All that there is, as an event for a viewer that starts, and the number of the event after it:
-  /// slabs (id, low, high, label), slices, counts, volume, unit, metres_per_unit, downloads; edits
-  /// where these change the surface.
+  /// kind (file, session, capture), name (of the file; may be empty), is_patient (whether the
+  /// frame is a patient's), slabs (id, low, high, label), slices, counts, volume, unit,
+  /// metres_per_unit, downloads; edits where these change the surface.
   [[nodiscard]] virtual std::pair<std::string, std::uint64_t> reset_event() const = 0;
   [[nodiscard]] virtual Json status() const = 0;
+  /// In the order in which parts are counted; one of each name.
+  [[nodiscard]] virtual std::vector<ShownLabel> labels() = 0;
 
   /// A slab as GLB (io/gltf/slab_glb.h); none where it is gone, or never was.
   [[nodiscard]] virtual std::optional<std::string> slab(std::size_t part, std::uint32_t id) = 0;

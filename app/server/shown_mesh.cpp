@@ -37,15 +37,21 @@ ShownMesh::ShownMesh(std::filesystem::path file, std::string unit)
       unit_(std::move(unit)),
       metres_per_unit_(io::metres_per_unit(unit_).value_or(1)) {
   for (io::LabelledMesh& mesh : io::read_meshes(file_)) {
-    add(sum_, measure(mesh.mesh));
-    parts_.push_back(cut(std::move(mesh)));
+    const Measures measures = measure(mesh.mesh);
+    add(sum_, measures);
+    ShownLabel about{.label = mesh.label,
+                     .is_skin = is_skin(mesh.label),
+                     .volume = measures.volume,
+                     .area = measures.area,
+                     .faces = measures.faces};
+    parts_.push_back(cut(std::move(mesh.mesh), std::move(about)));
   }
   const Mesh& first = parts_.front().patch.mesh;
   origin_ = first.points[first.faces.front()[0]];
 }
 
-ShownMesh::Part ShownMesh::cut(io::LabelledMesh mesh) {
-  Part part{std::move(mesh.label), {std::move(mesh.mesh), {}, {}, {}}, {}};
+ShownMesh::Part ShownMesh::cut(Mesh mesh, ShownLabel about) {
+  Part part{{std::move(mesh), {}, {}, {}}, {}, std::move(about)};
   Patch& patch = part.patch;
   for (std::size_t f = 0; f < patch.mesh.faces.size(); ++f) {
     const auto& [a, b, c] = patch.mesh.faces[f];
@@ -69,8 +75,11 @@ std::pair<std::string, std::uint64_t> ShownMesh::reset_event() const {
       slabs.push_back({{"id", std::to_string(i) + '-' + std::to_string(chunk.id)},
                        {"low", chunk.low},
                        {"high", chunk.high},
-                       {"label", parts_[i].label}});
-  const Json event{{"slabs", std::move(slabs)},
+                       {"label", parts_[i].about.label}});
+  const Json event{{"kind", "file"},
+                   {"name", file_.filename().string()},
+                   {"is_patient", false},
+                   {"slabs", std::move(slabs)},
                    {"slices", Json::array()},
                    {"counts", counts()},
                    {"volume", sum_.volume},
@@ -87,13 +96,19 @@ Json ShownMesh::status() const {
   return status;
 }
 
+std::vector<ShownLabel> ShownMesh::labels() {
+  std::vector<ShownLabel> labels;
+  for (const Part& part : parts_) labels.push_back(part.about);
+  return labels;
+}
+
 Json ShownMesh::counts() const { return {{"vertices", sum_.vertices}, {"faces", sum_.faces}}; }
 
 std::optional<std::string> ShownMesh::slab(std::size_t part, std::uint32_t id) {
   if (part >= parts_.size() || id >= parts_[part].chunks.size()) return {};
-  const auto& [label, patch, chunks] = parts_[part];
+  const auto& [patch, chunks, about] = parts_[part];
   return io::slab_glb(patch, chunks[id],
-                      {.label = label,
+                      {.label = about.label,
                        .is_double_sided = true,
                        .origin = origin_,
                        .metres_per_unit = metres_per_unit_});

@@ -1,35 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
-#include <cstddef>
-#include <limits>
 #include <utility>
 
 #include "io/bytes/utf8.h"
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_model.h"
 #include "io/gltf/shading.h"
+#include "io/meshes/extent.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
 
 namespace {
-
-Vec3 centre_of(std::span<const Part> parts) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  Vec3 low{infinity, infinity, infinity};
-  Vec3 high{-infinity, -infinity, -infinity};
-  for (const Part& part : parts) {
-    for (const auto vertex : part.surface->vertices()) {
-      const auto& point = part.surface->point(vertex);
-      for (unsigned axis = 0; axis < 3; ++axis) {
-        low[axis] = std::min(low[axis], point[axis]);
-        high[axis] = std::max(high[axis], point[axis]);
-      }
-    }
-  }
-  if (!(low[0] <= high[0])) return {};
-  return {low[0] / 2 + high[0] / 2, low[1] / 2 + high[1] / 2, low[2] / 2 + high[2] / 2};
-}
 
 bool is_open(const Surface& surface) {
   return std::ranges::any_of(surface.halfedges(),
@@ -75,7 +57,8 @@ tinygltf::Value extras(const WriteOptions& options) {
 tinygltf::Model to_model(std::span<const Part> parts, const WriteOptions& options) {
   tinygltf::Model model = empty_model();
   model.asset.extras = extras(options);
-  const Frame frame{centre_of(parts), options.metres_per_unit};
+  const Frame frame{options.origin ? *options.origin : centre_of(extent(parts)),
+                    options.metres_per_unit};
   Buffer buffer(model);
   for (const Part& part : parts) {
     if (part.surface->n_faces() > 0) add_part(part, frame, buffer, model);

@@ -24,6 +24,9 @@ struct WriteOptions {
   /// The length of one unit of the input. glTF is in metres; the other formats keep the input's
   /// unit, whatever it is.
   double metres_per_unit = 0.001;
+  /// The place that formats with `float` coordinates write about. None: glTF about the middle of
+  /// all parts (it is in the nodes), STL about 0.
+  std::optional<Vec3> origin = {};
   /// Where the surfaces come from and how they were made, for the formats that have a place for it
   /// (glTF: `asset.extras`). Give no absolute paths and no times: same input, same bytes.
   std::vector<std::string> sources = {};
