@@ -52,7 +52,7 @@ export class History {
     element('redo').disabled = !canRedo;
     element('history-count').textContent = count(edits.length);
     this.#canLookBack = canLookBack;
-    this.#list.show(edits.toReversed());
+    this.#list.show([...edits].reverse());
   }
 
   async #go(way) {

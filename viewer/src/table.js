@@ -8,10 +8,10 @@ const { compare } = new Intl.Collator('en', { numeric: true });
 
 // `name` and `unit` for the heading, and `text` for people; in CSV the numbers are as they are, and
 // the headings as `loft reconstruct --csv` writes them.
-function columnsIn({ plain, volumeUnit, areaUnit }) {
+export function columnsIn({ plain, volumeUnit, areaUnit }) {
   return [
     { key: 'label', name: 'Label', csv: 'label', text: (label) => label || 'no label' },
-    { key: 'slices', name: 'Slices', csv: 'slices', text: count },
+    { key: 'slices', name: 'Slices', csv: 'slices', text: (slices) => count(slices || NaN) },
     { key: 'volume', name: 'Volume', unit: volumeUnit, csv: `volume_${plain}3`, text: number },
     { key: 'area', name: 'Area', unit: areaUnit, csv: `area_${plain}2`, text: number },
     { key: 'faces', name: 'Triangles', csv: 'triangles', text: count },
@@ -20,10 +20,10 @@ function columnsIn({ plain, volumeUnit, areaUnit }) {
 
 const heading = ({ name, unit }) => (unit ? `${name} (${unit})` : name);
 
-function inOrder(rows, { key, isDescending }) {
+export function inOrder(rows, { key, isDescending }) {
   const sign = isDescending ? -1 : 1;
   const order = key === 'label' ? (a, b) => compare(a.label, b.label) : (a, b) => a[key] - b[key];
-  return rows.toSorted((a, b) => sign * order(a, b) || compare(a.label, b.label));
+  return [...rows].sort((a, b) => sign * order(a, b) || compare(a.label, b.label));
 }
 
 function quoted(value) {
@@ -31,8 +31,13 @@ function quoted(value) {
   return /[",\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 }
 
+// No number where it is not known in how many slices a label is.
+function valueOf(row, { key }) {
+  return key === 'slices' ? row[key] || '' : row[key];
+}
+
 export function toCsv(rows, columns) {
-  const lines = [columns.map(({ csv }) => csv), ...rows.map((row) => columns.map(({ key }) => row[key]))];
+  const lines = [columns.map(({ csv }) => csv), ...rows.map((row) => columns.map((column) => valueOf(row, column)))];
   return lines.map((line) => `${line.map(quoted).join(',')}\r\n`).join('');
 }
 
