@@ -75,7 +75,7 @@ test('a click goes through the skin, marks the label in the list, and H and I ac
   await viewer.page.waitForFunction(() => document.getElementById('pick').textContent.includes('Volume'));
   assert.equal(await chosen(), 'liver');
   assert.match(await viewer.text('pick'), /Label\s+liver/);
-  assert.match(await viewer.text('pick'), /Volume\s+8 cm³\s+Area\s+16 cm²/);
+  assert.match(await viewer.text('pick'), /Volume\s+8 cm³\s+Area\s+24 cm²/);
   await viewer.page.keyboard.press('Escape');
   assert.equal(await viewer.text('label-name'), 'None chosen');
 

@@ -16,6 +16,8 @@ export class List {
   #chosen = -1;
   #rows = [];
   #isStale = false;
+  #height = 1;  // of a row
+  #page = 1;    // rows that are seen
 
   // `element` is an empty listbox; draw(row, item) fills a row; choose(item) is called where an item
   // is chosen here.
@@ -58,7 +60,7 @@ export class List {
 
   #refresh() {
     this.#isStale = false;
-    this.#room.style.height = `${this.#items.length * this.#height}px`;
+    this.#measure();
     const first = Math.max(0, Math.floor(this.#element.scrollTop / this.#height) - more);
     const last = Math.min(this.#items.length, first + this.#page + 2 * more);
     while (this.#rows.length < last - first) this.#rows.push(this.#makeRow());
@@ -68,11 +70,11 @@ export class List {
     else this.#element.removeAttribute('aria-activedescendant');
   }
 
-  get #height() {
-    return Number.parseFloat(getComputedStyle(this.#element).getPropertyValue('--row'));
+  #measure() {
+    this.#height = Number.parseFloat(getComputedStyle(this.#element).getPropertyValue('--row'));
+    this.#room.style.height = `${this.#items.length * this.#height}px`;
+    this.#page = Math.ceil(this.#element.clientHeight / this.#height);
   }
-  // How many rows are seen.
-  get #page() { return Math.ceil(this.#element.clientHeight / this.#height); }
 
   #makeRow() {
     const row = this.#room.appendChild(document.createElement('div'));
@@ -112,11 +114,11 @@ export class List {
   }
 
   #reveal(index) {
+    this.#measure();
     const top = index * this.#height;
     const bottom = top + this.#height;
     const { scrollTop, clientHeight } = this.#element;
     if (clientHeight === 0 || (top >= scrollTop && bottom <= scrollTop + clientHeight)) return;
-    this.#room.style.height = `${this.#items.length * this.#height}px`;
     const isNear = bottom > scrollTop - 2 * this.#height && top < scrollTop + clientHeight + 2 * this.#height;
     if (!isNear) this.#element.scrollTop = top - (clientHeight - this.#height) / 2;
     else this.#element.scrollTop = top < scrollTop ? top : bottom - clientHeight;

@@ -100,9 +100,10 @@ export class Panel {
       const label = nearest.slice.labels?.[nearest.contour];
       rows.push(['Slice', `z ${exact(nearest.slice.z)} ${unit}`],
                 ['Contour', `${nearest.contour}${label ? ` (${label})` : ''}`],
-                ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)}`]);
+                ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)} ${unit}`]);
     }
-    rows.push(['Place', place.map((value) => coordinate(value, high - low)).join(', ')]);
+    const [px, py, pz] = place.map((value) => coordinate(value, high - low));
+    rows.push(['Place', `${px}, ${py}, ${pz} ${unit}`]);
     if (slab.label) rows.push(['Label', slab.label]);
     this.#picked = slab;
     if (slab.confidence !== undefined)  // not of a mesh
