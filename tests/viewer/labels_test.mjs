@@ -140,7 +140,7 @@ test('colour and opacity are chosen, and taken back', async () => {
 test('the table sorts by each column and copies as CSV', async () => {
   await open({ ...wide, permissions: ['clipboard-read', 'clipboard-write'] });
   await viewer.page.locator('#canvas').focus();
-  await viewer.page.keyboard.press('b');
+  await viewer.page.keyboard.press('g');
   await viewer.page.waitForSelector('#table[open]');
   const first = () => viewer.page.locator('#table-body tr').first().innerText();
   assert.match(await first(), /^BODY\s+3\s/);

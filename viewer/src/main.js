@@ -132,7 +132,7 @@ function connectControls() {
     h: () => labelList.toggleChosen(),
     i: () => labelList.isolateChosen(),
     '/': () => labelList.search(),
-    b: () => table.open(),
+    g: () => table.open(),
     'ctrl+z': () => history.undo(),
     'ctrl+shift+z': () => history.redo(),
     escape: forgetPick,
