@@ -18,6 +18,7 @@ import { Surroundings } from './surroundings.js';
 const settleEvery = 100;  // ms
 const quiet = 200;        // ms without an edit
 const lossAfter = 2000;   // ms for which an event may be behind
+const slicesAtOnce = 64;  // whose contours are drawn anew in a frame
 
 export class View {
   #panel;
@@ -32,6 +33,7 @@ export class View {
   #picked;             // contour and point
   #worn = new Set();   // slabs with normals that are no longer right
   #renewal;            // timer
+  #redrawing;          // another
   #lose;
   #picks = 0;          // asked for: only the last one is answered
   #pickedZ;            // height of the contour point that is marked
@@ -269,7 +271,32 @@ export class View {
     if (what === 'visibility') this.#layers.applyVisibility();
     else if (what === 'opacity') this.#layers.applyOpacity();
     else this.#isStale = true;
+    if (what === 'visibility') this.#redrawLater();
     this.stage.invalidate();
+  }
+
+  // Contours without those of hidden labels: some slices a frame, as soon as nothing changes.
+  #redrawLater() {
+    clearTimeout(this.#redrawing);
+    if (!this.#settings) return;
+    this.#redrawing = setTimeout(() => {
+      if (this.#lines.isShown) this.#redraw(this.heights);
+      else this.#lines.clear();
+      this.#applySlice(this.#settings.slice);
+    }, quiet);
+  }
+
+  #redraw(heights) {
+    for (const z of heights.slice(0, slicesAtOnce))
+      if (this.#contours.get(z)) this.#draw(this.#contours.get(z));
+    const rest = heights.slice(slicesAtOnce);
+    if (rest.length > 0) this.#redrawing = setTimeout(() => this.#redraw(rest));
+  }
+
+  // What is to be seen of a slice.
+  #shownPart(slice) {
+    const isShown = (_, contour) => this.#labels.isShown(slice.labels?.[contour] ?? '');
+    return slice && { ...slice, contours: slice.contours.filter(isShown) };
   }
 
   #applyCut(cut) {
@@ -293,7 +320,7 @@ export class View {
 
   #draw(slice) {
     if (!this.#frame || !this.#lines.isShown) return;
-    this.#lines.set(slice, this.#frame);
+    this.#lines.set(this.#shownPart(slice), this.#frame);
     this.stage.invalidate();
   }
 
@@ -301,7 +328,7 @@ export class View {
     const slice = z === undefined ? undefined : await this.#contours.ask(z);
     const isOutdated = z !== this.#settings.slice;
     if (!this.#frame || isOutdated) return;
-    this.#chosen.showSlice(slice, this.#frame);
+    this.#chosen.showSlice(this.#shownPart(slice), this.#frame);
     this.stage.invalidate();
   }
 
