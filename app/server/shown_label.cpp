@@ -35,7 +35,9 @@ Json one_to_json(const ShownLabel& label) {
 
 bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
 
-char in_lower_case(char c) { return static_cast<char>(std::tolower(static_cast<unsigned char>(c))); }
+char in_lower_case(char c) {
+  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+}
 
 }  // namespace
 

@@ -50,8 +50,14 @@ export class Layers {
   }
 
   // Whether a hit of the raycaster is in the slot.
-  isHit(slot, { object, batchId }) {
-    return slot.batch.mesh === object && slot.place.instance === batchId;
+  isHit(slot, hit) {
+    return slot.batch.isHit(slot.place, hit);
+  }
+
+  // To be called before what was said here is drawn or picked from.
+  flush() {
+    this.#solid.flush();
+    this.#clear.flush();
   }
 
   setColour(slot, colour) {

@@ -2,6 +2,7 @@
 // The picture of the surface: what the server says goes in, frames come out.
 import { Box3 } from 'three';
 import { diagonal } from './batch.js';
+import { fetchMany } from './bundles.js';
 import { colouring, explain, hexOf } from './colours.js';
 import { Contours } from './contours.js';
 import { Frame, nameOf } from './frame.js';
@@ -18,6 +19,8 @@ import { Surroundings } from './surroundings.js';
 const settleEvery = 100;  // ms
 const quiet = 200;        // ms without an edit
 const lossAfter = 2000;   // ms for which an event may be behind
+const loadingStep = 500;  // ms from frame to frame while much is loaded
+const many = 8;           // slabs that are worth a request for all of them
 const slicesAtOnce = 64;  // whose contours are drawn anew in a frame
 
 export class View {
@@ -44,6 +47,7 @@ export class View {
   #mode = 'label';
   #wasMoved = false;   // by the user: then nothing is fitted any more
   #isStale = false;    // box and colours
+  #nextFrame;          // timer
   #settings;
   #legend = document.getElementById('legend');
 
@@ -131,6 +135,7 @@ export class View {
   // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
   // that point, if there is any.
   async pick(x, y) {
+    this.#layers.flush();
     const hit = this.#layers.meshes.map((mesh) => hitAt(this.stage, mesh, x, y)).find(Boolean);
     const slab = hit && [...this.#slots].find(([, slot]) => this.#layers.isHit(slot, hit))?.[0];
     this.forgetPick();
@@ -153,12 +158,26 @@ export class View {
   }
 
   #fetch(slabs) {
+    if (slabs.length >= many) return this.#fetchMany(slabs);
     for (const slab of slabs)
       this.#ask(slab, () => this.#slabs.isPending(slab), (content) => {
         Object.assign(slab, content);
         this.#slabs.arrive(slab, performance.now());
         this.#showPending();
       }, () => this.#miss(slab));
+  }
+
+  #fetchMany(slabs) {
+    fetchMany(this.#loader, slabs, {
+      isKnown: (id) => this.#slabs.has(id),
+      isWanted: (slab) => this.#slabs.isPending(slab),
+      take: (slab, content) => {
+        Object.assign(slab, content);
+        this.#slabs.arrive(slab, performance.now());
+      },
+      miss: (slab) => this.#miss(slab),
+      done: () => this.#showPending(),
+    });
   }
 
   // A slab may be gone before it could be fetched: then an event says so soon, or was lost.
@@ -235,14 +254,21 @@ export class View {
     if (this.#settings) this.apply(this.#settings);
   }
 
+  // While much is on its way frames are few: each of them holds up the rest.
   #refreshLater() {
     this.#isStale = true;
-    this.stage.invalidate();
+    if (this.#slabs.pending < many) return this.stage.invalidate();
+    this.#nextFrame ??= setTimeout(() => {
+      this.#nextFrame = undefined;
+      this.stage.invalidate();
+    }, loadingStep);
   }
 
   // Ahead of a frame.
   #prepare() {
+    this.#layers.flush();
     if (this.#isStale) this.#refresh();
+    this.#layers.flush();
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
