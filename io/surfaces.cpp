@@ -5,18 +5,23 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <ostream>
 #include <string_view>
+#include <system_error>
 
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
 #include "io/bytes/format_table.h"
+#include "io/bytes/zip.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/extent.h"
+#include "io/meshes/materials.h"
 #include "io/meshes/obj.h"
 #include "io/meshes/off.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/stl.h"
+#include "io/meshes/three_mf.h"
 #include "io/rounding/rounded_parts.h"
 
 namespace loft::io {
@@ -39,6 +44,7 @@ constexpr std::array surface_writers{
     SurfaceWriter{".obj", write_obj},
     SurfaceWriter{".stl", write_stl, Coordinates::float_as_they_are},
     SurfaceWriter{".off", write_off},
+    SurfaceWriter{".3mf", write_3mf},
 };
 
 Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::span<const Part> parts,
@@ -47,19 +53,6 @@ Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::spa
   const RoundedParts rounded(parts, {*options.origin, options.metres_per_unit}, false);
   format.write(out, rounded.parts(), options);
   return {rounded.rounding()};
-}
-
-/// Whether `float` says nothing about what is smaller than a share of it all.
-bool is_far_from_zero(const Box3& box) {
-  constexpr double share = 0x1p-13;
-  constexpr double last_place = 0x1p-23;
-  double size = 0;
-  double distance = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    size = std::max(size, box.high[axis] - box.low[axis]);
-    distance = std::max({distance, std::abs(box.low[axis]), std::abs(box.high[axis])});
-  }
-  return distance * last_place > size * share;
 }
 
 /// Near the middle of a box, in round numbers: multiples of a power of ten that is no larger than
@@ -83,7 +76,7 @@ Written write_as_they_are(const SurfaceWriter& format, std::ostream& out,
     format.write(out, rounded.parts(), options);
     return Written{rounded.rounding(), options.origin};
   };
-  if (options.origin || !is_far_from_zero(box)) {
+  if (options.origin || !is_coarse(box, 0x1p-13)) {
     const RoundedParts rounded(parts, {options.origin.value_or(Vec3{})}, true);
     if (options.origin || rounded.rounding().left == 0) return write_about(rounded);
     const RoundedParts about_near(parts, {round_place_near(box)}, true);
@@ -97,6 +90,7 @@ Written write_surfaces(const SurfaceWriter& format, std::ostream& out, std::span
                        const WriteOptions& options) {
   switch (format.coordinates) {
     case Coordinates::float_in_metres:
+      if (options.compression != Compression::none) break;  // on a coarser grid
       return write_in_metres(format, out, parts, options);
     case Coordinates::float_as_they_are:
       return write_as_they_are(format, out, parts, options);
@@ -107,20 +101,39 @@ Written write_surfaces(const SurfaceWriter& format, std::ostream& out, std::span
   return {};
 }
 
+/// Where an OBJ has a file of materials beside it: not at the end of a pipe.
+std::optional<std::filesystem::path> materials_of(const std::filesystem::path& path,
+                                                  std::span<const Part> parts) {
+  if (extension(path) != ".obj" || !has_materials(parts)) return {};
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return {};
+  return path.parent_path() / materials_name(path);
+}
+
 }  // namespace
 
 std::string surface_extensions() { return extensions_of(surface_writers); }
 
 void check_writable(const std::filesystem::path& path) {
   static_cast<void>(format_of(surface_writers, path));
+  if (extension(path) == ".3mf" && !has_zip())
+    throw Error(path.string() + ": " + std::string(no_zip));
   const AtomicFile tried(path);
 }
 
 Written write(const std::filesystem::path& path, std::span<const Part> parts,
               const WriteOptions& options) {
   const SurfaceWriter& format = format_of(surface_writers, path);
+  WriteOptions named = options;
   AtomicFile file(path);
-  const Written written = write_surfaces(format, file.stream(), parts, options);
+  if (const auto materials = materials_of(path, parts)) {
+    named.materials = materials->filename().string();
+    AtomicFile beside(*materials);  // first, so that no OBJ lacks it
+    write_mtl(beside.stream(), parts);
+    beside.commit();
+  }
+  const Written written = write_surfaces(format, file.stream(), parts, named);
   file.commit();
   return written;
 }

@@ -27,6 +27,9 @@ struct Written {
 /// which has no vertices, parts that touch are drawn apart by as much; one whose coordinates are
 /// too far from 0 for `float` is about a round place near it, unless the options name another one.
 ///
+/// An OBJ whose parts have labels or colours has its materials in a second file beside it
+/// (materials.h), which replaces one of that name and is there first.
+///
 /// Throws UnknownFormat, FileError, and Error where the format cannot hold the surfaces.
 /// Cost: O(n log n), O(n) for other formats, with the file in memory.
 Written write(const std::filesystem::path& path, std::span<const Part> parts,

@@ -132,7 +132,7 @@ offenders=$(
   posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
   allow 'cdt overlay paths fields mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
-  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|csv\.h|tiffio\.h|png\.h"
+  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|zip\.h|meshoptimizer\.h|csv\.h|tiffio\.h|png\.h"
   allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
   forbid 'cdt overlay paths fields mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'
