@@ -7,8 +7,10 @@ const element = (id) => document.getElementById(id);
 export class Drawer {
   constructor() {
     element('drawer').addEventListener('click', () => this.#set(!this.#isOpen));
-    element('side').addEventListener('keydown', ({ key }) => {
-      if (key === 'Escape' && this.#isOpen) this.#close();
+    element('side').addEventListener('keydown', (event) => {
+      if (event.key !== 'Escape' || !this.#isOpen) return;
+      event.stopPropagation();  // what was clicked stays
+      this.#close();
     });
   }
 

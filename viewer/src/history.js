@@ -71,7 +71,6 @@ export class History {
   // The surface as it was after that edit, as a file.
   #choose({ number }) {
     const link = element('history-then');
-    this.#list.mark(-1);
     link.hidden = !this.#canLookBack;
     link.href = `surface.glb?at=${number}`;
     link.textContent = `Surface after edit ${count(number)}`;

@@ -38,8 +38,18 @@ export class LabelList {
   }
 
   // Hides or isolates the chosen label.
-  toggleChosen() { this.#do((name) => this.#labels.toggle(name)); }
-  isolateChosen() { this.#do((name) => this.#labels.isolate(name)); }
+  toggleChosen() {
+    this.#do((name) => {
+      this.#labels.toggle(name);
+      this.#say(`${nameOf(name)}: ${this.#labels.isShown(name) ? 'shown' : 'hidden'}`);
+    });
+  }
+  isolateChosen() {
+    this.#do((name) => {
+      this.#labels.isolate(name);
+      this.#say(this.#labels.isIsolated(name) ? `${nameOf(name)} alone` : 'As before');
+    });
+  }
 
   #connect() {
     element('labels').addEventListener('click', ({ target }) => {
@@ -63,6 +73,11 @@ export class LabelList {
 
   #do(action) {
     if (this.#labels.chosen !== undefined) action(this.#labels.chosen);
+  }
+
+  // For those who do not see it.
+  #say(words) {
+    element('announcement').textContent = words;
   }
 
   // From the search into what was found.

@@ -62,7 +62,9 @@ export class Table {
     const rows = await this.#figures.list();
     if (!rows || element('table').open) return;
     this.#rows = rows;
-    this.#columns = columnsIn(this.#figures.measure);
+    // In how many slices a label is, is not known of a mesh.
+    this.#columns = columnsIn(this.#figures.measure).filter(({ key }) =>
+      key !== 'slices' || rows.some(({ slices }) => slices > 0));
     this.#show();
     element('table-said').textContent = '';
     element('table').showModal();
