@@ -26,16 +26,24 @@ constexpr std::array<std::string_view, 4> filter_names{"NONE", "OCTAHEDRAL", "QU
 
 // --- Writing ---
 
+/// Accessors of the corners of triangles: their order may be turned, unlike that of lines.
+std::set<int> corner_accessors(const tinygltf::Model& model) {
+  std::set<int> result;
+  for (const tinygltf::Mesh& mesh : model.meshes)
+    for (const tinygltf::Primitive& primitive : mesh.primitives)
+      if (primitive.mode == TINYGLTF_MODE_TRIANGLES) result.insert(primitive.indices);
+  return result;
+}
+
 /// For each view the accessor that reads it: they are made in pairs.
-Packing packing_of(const tinygltf::Model& model, std::size_t view, bool is_octahedral) {
+Packing packing_of(const tinygltf::Model& model, std::size_t view) {
   const tinygltf::Accessor& accessor = model.accessors[view];
   Packing packing;
-  if (is_octahedral) packing.filter = PackedFilter::octahedral;
   packing.count = accessor.count;
   packing.stride = model.bufferViews[view].byteStride;
   if (model.bufferViews[view].target == TINYGLTF_TARGET_ARRAY_BUFFER) return packing;
+  packing.mode = PackedMode::indices;
   packing.stride = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 2 : 4;
-  packing.mode = accessor.count % 3 == 0 ? PackedMode::triangles : PackedMode::indices;
   return packing;
 }
 
@@ -43,8 +51,13 @@ class Packer {
  public:
   Packer(tinygltf::Model model, const std::set<int>& octahedral)
       : model_(std::move(model)), raw_(std::move(model_.buffers[0].data)) {
-    for (std::size_t i = 0; i < model_.bufferViews.size(); ++i)
-      add(i, octahedral.contains(static_cast<int>(i)));
+    const std::set<int> corners = corner_accessors(model_);
+    for (int i = 0; i < static_cast<int>(model_.bufferViews.size()); ++i) {
+      Packing packing = packing_of(model_, static_cast<std::size_t>(i));
+      if (corners.contains(i)) packing.mode = PackedMode::triangles;
+      if (octahedral.contains(i)) packing.filter = PackedFilter::octahedral;
+      add(model_.bufferViews[static_cast<std::size_t>(i)], packing);
+    }
     views_ += ']';
     model_.bufferViews.clear();
     model_.buffers[0].data.assign(packed_.begin(), packed_.end());
@@ -65,15 +78,13 @@ class Packer {
   }
 
  private:
-  void add(std::size_t i, bool is_octahedral) {
-    const tinygltf::BufferView& view = model_.bufferViews[i];
-    const Packing packing = packing_of(model_, i, is_octahedral);
+  void add(const tinygltf::BufferView& view, const Packing& packing) {
     const std::string_view bytes(reinterpret_cast<const char*>(raw_.data()) + view.byteOffset,
                                  view.byteLength);
     packed_.resize((packed_.size() + 3) / 4 * 4);
     const std::size_t begin = packed_.size();
     packed_ += pack(packing, bytes);
-    views_ += i == 0 ? "{" : ",{";
+    views_ += views_.size() == 1 ? "{" : ",{";
     add_place(1, view.byteOffset, view.byteLength, view.byteStride);
     views_ += R"(,"target":)" + std::to_string(view.target) + R"(,"extensions":{")" + packing_name +
               "\":{";
