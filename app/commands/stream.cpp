@@ -22,6 +22,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/labels.h"
 #include "app/commands/settings.h"
+#include "app/commands/written.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
@@ -313,7 +314,7 @@ class Stream {
     for (const path& output : command_.outputs)
       attempts.make([&] {
         check_labels_fit(surfaces.parts().size(), output);
-        io::write(output, surfaces.parts(), options);
+        tell(output, io::write(output, surfaces.parts(), options), terminal_);
       });
     attempts.check();
   }

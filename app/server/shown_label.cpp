@@ -6,7 +6,7 @@
 #include <cctype>
 #include <cmath>
 
-#include "io/gltf/label_colour.h"
+#include "io/meshes/label_colour.h"
 
 namespace loft::app {
 
