@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include "io/meshes/label_colour.h"
@@ -21,22 +20,18 @@ std::string hexadecimal(double share) {
   return {digits[value / 16], digits[value % 16]};
 }
 
-std::string colour_of(const std::string& label) {
+std::string colour_of(const ShownLabel& label) {
   std::string text = "#";
-  for (const double share : io::label_colour(label)) text += hexadecimal(share);
+  for (const double share :
+       label.colour ? io::linear(*label.colour) : io::label_colour(label.label))
+    text += hexadecimal(share);
   return text;
 }
 
 Json one_to_json(const ShownLabel& label) {
-  return {{"label", label.label},   {"colour", colour_of(label.label)}, {"is_skin", label.is_skin},
-          {"slices", label.slices}, {"volume", label.volume},           {"area", label.area},
+  return {{"label", label.label},   {"colour", colour_of(label)}, {"is_skin", label.is_skin},
+          {"slices", label.slices}, {"volume", label.volume},     {"area", label.area},
           {"faces", label.faces}};
-}
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-
-char in_lower_case(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
 }  // namespace
@@ -45,20 +40,6 @@ Json to_json(std::span<const ShownLabel> labels) {
   Json all = Json::array();
   for (const ShownLabel& label : labels) all.push_back(one_to_json(label));
   return {{"labels", std::move(all)}};
-}
-
-bool is_skin(std::string_view label, std::string_view kind) {
-  if (kind == "EXTERNAL" || kind == "BODY") return true;
-  constexpr std::array<std::string_view, 3> names{"external", "body", "skin"};
-  for (auto begin = label.begin(); begin != label.end();) {
-    begin = std::find_if(begin, label.end(), is_letter);
-    const auto end = std::find_if_not(begin, label.end(), is_letter);
-    std::string word(begin, end);
-    std::ranges::transform(word, word.begin(), in_lower_case);
-    if (std::ranges::find(names, word) != names.end()) return true;
-    begin = end;
-  }
-  return false;
 }
 
 double area(const Mesh& mesh) {
