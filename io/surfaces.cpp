@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <ostream>
@@ -22,6 +21,7 @@
 #include "io/meshes/ply.h"
 #include "io/meshes/stl.h"
 #include "io/meshes/three_mf.h"
+#include "io/rounding/near_origin.h"
 #include "io/rounding/rounded_parts.h"
 
 namespace loft::io {
@@ -29,7 +29,7 @@ namespace loft::io {
 namespace {
 
 /// How a format keeps coordinates.
-enum class Coordinates { exact, float_in_metres, float_as_they_are };
+enum class Coordinates { exact, float_in_metres, float_as_they_are, read_as_float };
 
 struct SurfaceWriter {
   std::string_view extension;
@@ -44,7 +44,7 @@ constexpr std::array surface_writers{
     SurfaceWriter{".obj", write_obj},
     SurfaceWriter{".stl", write_stl, Coordinates::float_as_they_are},
     SurfaceWriter{".off", write_off},
-    SurfaceWriter{".3mf", write_3mf},
+    SurfaceWriter{".3mf", write_3mf, Coordinates::read_as_float},
 };
 
 Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::span<const Part> parts,
@@ -55,48 +55,19 @@ Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::spa
   return {rounded.rounding()};
 }
 
-/// Whether `float` says nothing about what is smaller than a share of it all.
-bool is_far_from_zero(const Box3& box) {
-  constexpr double share = 0x1p-13;
-  constexpr double last_place = 0x1p-23;
-  double size = 0;
-  double distance = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    size = std::max(size, box.high[axis] - box.low[axis]);
-    distance = std::max({distance, std::abs(box.low[axis]), std::abs(box.high[axis])});
-  }
-  return distance * last_place > size * share;
-}
-
-/// Near the middle of a box, in round numbers: multiples of a power of ten that is no larger than
-/// the box.
-Vec3 round_place_near(const Box3& box) {
-  double size = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    size = std::max(size, box.high[axis] - box.low[axis]);
-  if (!(size > 0)) return centre_of(box);
-  const double step = std::pow(10, std::floor(std::log10(size)));
-  Vec3 place = centre_of(box);
-  for (double& coordinate : place) coordinate = std::round(coordinate / step) * step;
-  return place;
-}
-
-/// About 0, if that is any good.
 Written write_as_they_are(const SurfaceWriter& format, std::ostream& out,
                           std::span<const Part> parts, WriteOptions options) {
-  const Box3 box = extent(parts);
-  const auto write_about = [&](const RoundedParts& rounded) {
-    format.write(out, rounded.parts(), options);
-    return Written{rounded.rounding(), options.origin};
-  };
-  if (options.origin || !is_far_from_zero(box)) {
-    const RoundedParts rounded(parts, {options.origin.value_or(Vec3{})}, true);
-    if (options.origin || rounded.rounding().left == 0) return write_about(rounded);
-    const RoundedParts about_near(parts, {round_place_near(box)}, true);
-    if (about_near.rounding().left >= rounded.rounding().left) return write_about(rounded);
-  }
-  options.origin = round_place_near(box);
-  return write_about(RoundedParts(parts, {*options.origin}, true));
+  const RoundedParts rounded = round_as_they_are(parts, options.origin);
+  format.write(out, rounded.parts(), options);
+  return {rounded.rounding(), options.origin};
+}
+
+/// For readers that make `float` of exact coordinates.
+Written write_to_be_rounded(const SurfaceWriter& format, std::ostream& out,
+                            std::span<const Part> parts, const WriteOptions& options) {
+  const RoundedParts rounded(parts, {}, false);
+  format.write(out, rounded.parts(), options);
+  return {rounded.rounding()};
 }
 
 Written write_surfaces(const SurfaceWriter& format, std::ostream& out, std::span<const Part> parts,
@@ -107,6 +78,8 @@ Written write_surfaces(const SurfaceWriter& format, std::ostream& out, std::span
       return write_in_metres(format, out, parts, options);
     case Coordinates::float_as_they_are:
       return write_as_they_are(format, out, parts, options);
+    case Coordinates::read_as_float:
+      return write_to_be_rounded(format, out, parts, options);
     case Coordinates::exact:
       break;
   }

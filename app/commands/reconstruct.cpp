@@ -104,6 +104,7 @@ void check_outputs(const ReconstructCommand& command) {
 
 /// The same, once the labels are known.
 void check_outputs(const ReconstructCommand& command, const std::vector<std::string>& labels) {
+  static_cast<void>(hidden_labels(command, labels));
   for (const path& output : command.outputs) {
     if (!is_per_label(output)) {
       check_labels_fit(labels.size(), output);

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -11,9 +12,13 @@
 
 #include "app/json.h"
 #include "app/server/shown_label.h"
+#include "app/server/slab_ranges.h"
 #include "reconstruct/slice.h"
 
 namespace loft::app {
+
+/// So many bytes of slabs go into an answer, and what the last one has beyond.
+constexpr std::size_t most_slab_bytes = std::size_t{4} << 20U;
 
 /// What viewers see: a surface in pieces. For any number of threads.
 class Shown {
@@ -31,6 +36,9 @@ class Shown {
 
   /// A slab as GLB (io/gltf/slab_glb.h); none where it is gone, or never was.
   [[nodiscard]] virtual std::optional<std::string> slab(std::size_t part, std::uint32_t id) = 0;
+  /// Slabs as GLBs one behind the other (io::bundle_glb; each says its length), as many as fit into
+  /// an answer: at least one, if there is any of them. Empty where all are gone, or never were.
+  [[nodiscard]] virtual std::string slabs(std::span<const SlabRange> ranges) = 0;
   /// The file to download with that extension, `.ply`; none where there is no surface yet. Throws
   /// io::UnknownFormat.
   [[nodiscard]] virtual std::optional<std::string> surface(std::string_view extension) = 0;

@@ -7,6 +7,7 @@
 
 #include "app/capture/capture.h"
 #include "app/server/shown.h"
+#include "io/gltf/slab_glb.h"
 
 namespace loft::app {
 
@@ -22,6 +23,7 @@ class ShownCapture : public Shown {
   /// Cost: that of the slabs that have come since it was called last.
   [[nodiscard]] std::vector<ShownLabel> labels() override;
   [[nodiscard]] std::optional<std::string> slab(std::size_t part, std::uint32_t id) override;
+  [[nodiscard]] std::string slabs(std::span<const SlabRange> ranges) override;
   [[nodiscard]] std::optional<std::string> surface(std::string_view extension) override;
   [[nodiscard]] std::optional<Slice> slice(double z) const override { return capture_.slice(z); }
   [[nodiscard]] std::vector<double> heights() const override { return capture_.heights(); }
@@ -31,6 +33,9 @@ class ShownCapture : public Shown {
     double area = 0;
     std::size_t faces = 0;
   };
+  void append(std::string& glbs, const CaptureView& view, const SlabRange& range) const;
+  [[nodiscard]] io::SlabView view_of(const CaptureView& view, std::size_t part) const;
+
   using MeasuredSlabs = std::map<SlabKey, Measured>;
   [[nodiscard]] static ShownLabel measure(const CaptureView& view, std::size_t part,
                                           const MeasuredSlabs& before, MeasuredSlabs& now);

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/server/shown.h"
+#include "io/gltf/slab_glb.h"
 #include "io/unit.h"
 #include "mesh/measure.h"
 #include "mesh/mesh.h"
@@ -22,6 +23,7 @@ class ShownMesh : public Shown {
   [[nodiscard]] Json status() const override;
   [[nodiscard]] std::vector<ShownLabel> labels() override;
   [[nodiscard]] std::optional<std::string> slab(std::size_t part, std::uint32_t id) override;
+  [[nodiscard]] std::string slabs(std::span<const SlabRange> ranges) override;
   /// The file itself.
   [[nodiscard]] std::optional<std::string> surface(std::string_view extension) override;
   [[nodiscard]] std::optional<Slice> slice(double) const override { return {}; }
@@ -35,6 +37,8 @@ class ShownMesh : public Shown {
   };
   [[nodiscard]] static Part cut(Mesh mesh, ShownLabel about);
   [[nodiscard]] Json counts() const;
+  [[nodiscard]] io::SlabView view_of(const Part& part) const;
+  void append(std::string& glbs, const SlabRange& range) const;
 
   std::filesystem::path file_;
   std::string unit_;

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 
+#include "mesh/box3.h"
 #include "mesh/mesh.h"
 
 namespace loft::io {
@@ -22,5 +25,18 @@ struct FloatFrame {
     return result;
   }
 };
+
+/// Whether the last place of the largest coordinates in a box, as `float`, is more than a share of
+/// the box's longest side: then shapes are not kept.
+[[nodiscard]] inline bool is_coarse(const Box3& box, double share) {
+  constexpr double last_place = 0x1p-23;
+  double size = 0;
+  double distance = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    size = std::max(size, box.high[axis] - box.low[axis]);
+    distance = std::max({distance, std::abs(box.low[axis]), std::abs(box.high[axis])});
+  }
+  return distance * last_place > size * share;
+}
 
 }  // namespace loft::io

@@ -10,6 +10,8 @@ namespace loft::io {
 namespace {
 
 constexpr int most_rounds = 16;
+/// Places that vertices are tried at: some seconds at most.
+constexpr std::size_t most_tries = 200'000;
 /// Around a vertex: tests of pairs are bounded.
 constexpr std::size_t most_faces = 256;
 /// So far vertices may go, in units in the last place of what is around them.
@@ -68,7 +70,13 @@ void Mender::mend(std::span<const std::uint32_t> vertices) {
     if (try_all([this](VertexHandle v) { return move(v); })) continue;
     if (!try_all([this](VertexHandle v) { return collapse(v); })) break;
   }
-  if (collapsed_ > 0) surface_.garbage_collection();
+}
+
+Mesh Mender::unmoved() const {
+  Surface result = surface_;
+  for (const auto& [v, home] : homes_) result.set_point(VertexHandle(v), home);
+  result.garbage_collection();
+  return to_mesh(result);
 }
 
 bool Mender::move(VertexHandle v) {
@@ -77,11 +85,12 @@ bool Mender::move(VertexHandle v) {
   if (fewest == 0) return false;
   static const std::vector<Way> ways = make_ways();
   const Vec3 unit = unit_around(v);
-  const Surface::Point here = surface_.point(v);
+  const auto moved = homes_.find(v.idx());
+  const Surface::Point home = moved == homes_.end() ? surface_.point(v) : moved->second;
   std::optional<Surface::Point> best;
   for (const int reach : reaches) {
     for (const auto& [step] : ways) {
-      Surface::Point point = here;
+      Surface::Point point = home;
       for (unsigned axis = 0; axis < 3; ++axis) point[axis] += reach * step[axis] * unit[axis];
       const std::size_t count = faults_at(v, rounded(point), fewest);
       if (count >= fewest) continue;
@@ -96,7 +105,7 @@ bool Mender::move(VertexHandle v) {
 }
 
 bool Mender::is_mendable(VertexHandle v) const {
-  return !surface_.status(v).deleted() && surface_.valence(v) <= most_faces;
+  return tries_ < most_tries && !surface_.status(v).deleted() && surface_.valence(v) <= most_faces;
 }
 
 Vec3 Mender::unit_around(VertexHandle v) const {
@@ -117,11 +126,11 @@ Vec3 Mender::unit_around(VertexHandle v) const {
 
 void Mender::put(VertexHandle v, const Surface::Point& point) {
   counts_.remove(place(v));
+  homes_.try_emplace(v.idx(), surface_.point(v));
   surface_.set_point(v, point);
   places_[static_cast<std::size_t>(v.idx())] = rounded(point);
   counts_.add(place(v));
   for (const FaceHandle f : surface_.vf_range(v)) refresh(f);
-  ++moved_;
 }
 
 void Mender::refresh(FaceHandle f) {
@@ -151,6 +160,7 @@ void Mender::add_to_star(FaceHandle f, VertexHandle moved, const Vec3& to) {
 }
 
 std::size_t Mender::faults_of_star(std::size_t enough) {
+  ++tries_;
   std::size_t count = 0;
   for (const StarFace& face : star_) count += face.is_flat ? 1U : 0U;
   for (std::size_t i = 0; i < star_.size() && count < enough; ++i) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "io/rounding/float_frame.h"
@@ -19,20 +20,25 @@ namespace loft::io {
 /// Brings a surface into such places that it has fewer faults once they are rounded.
 ///
 /// A vertex at a fault goes where there are the fewest faults around it, of the 26 ways to
-/// neighbouring floats, in the plane of its slice first, and of up to 8 of these; no step makes
-/// more of them. Where none helps any more, an edge of about that length is collapsed.
+/// neighbouring floats, in the plane of its slice first, then of 2, 4 and 8 units in the last
+/// place, from where it was at first; no step makes more of them. Where none helps any more, an
+/// edge of no more than that is collapsed.
 class Mender {
  public:
   /// `mesh`: the surface at its rounded places. `counts` are kept up to date. All must outlive the
   /// mender.
   Mender(Surface& surface, const Mesh& mesh, const FloatFrame& frame, PlaceCounts& counts);
 
-  /// Mends around these vertices as long as that helps. Numbers of vertices and faces change where
-  /// edges are collapsed. Cost: a few microseconds a vertex and way tried, times its faces.
+  /// Mends around these vertices as long as that helps. Where edges are collapsed elements are
+  /// deleted: call garbage_collection() on the surface when all has been asked. Cost: a few
+  /// microseconds a vertex and way tried, times its faces.
   void mend(std::span<const std::uint32_t> vertices);
 
-  [[nodiscard]] std::size_t moved() const { return moved_; }
+  /// How many vertices.
+  [[nodiscard]] std::size_t moved() const { return homes_.size(); }
   [[nodiscard]] std::size_t collapsed() const { return collapsed_; }
+  /// The surface as it is after mend(), but all vertices where they were.
+  [[nodiscard]] Mesh unmoved() const;
 
  private:
   using VertexHandle = Surface::VertexHandle;
@@ -82,8 +88,9 @@ class Mender {
   std::vector<bool> is_apart_;  // faces that are not asked of at present
   std::vector<StarFace> star_;
   TriangleTree tree_;
-  std::size_t moved_ = 0;
+  std::unordered_map<int, Surface::Point> homes_;  // of vertices that were moved: where they were
   std::size_t collapsed_ = 0;
+  std::size_t tries_ = 0;
 };
 
 }  // namespace loft::io

@@ -10,7 +10,7 @@ namespace loft::io {
 /// places joins them.
 struct Rounding {
   std::size_t faults = 0;     ///< that there were
-  std::size_t moved = 0;      ///< how often a vertex went to a neighbouring `float`
+  std::size_t moved = 0;      ///< vertices that went to a neighbouring `float`
   std::size_t collapsed = 0;  ///< edges that are gone
   std::size_t left = 0;       ///< faults that there still are
 

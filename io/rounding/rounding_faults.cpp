@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <array>
 
+#include "mesh/adjacency.h"
 #include "mesh/check.h"
 #include "mesh/predicates.h"
 #include "mesh/triangle_pairs.h"
+#include "mesh/vec3.h"
 
 namespace loft::io {
 
@@ -59,12 +61,40 @@ void find_meeting_faces(const Mesh& mesh, const std::vector<std::uint32_t>& face
   static_cast<void>(are_all);
 }
 
+/// Six times the volume of each component, at its first vertex; about that vertex, so that what is
+/// small and far away has one.
+std::vector<double> volumes(const Mesh& mesh, DisjointSets& component) {
+  std::vector<double> result(mesh.points.size());
+  for (const auto& face : mesh.faces) {
+    const std::uint32_t first = component.find(face[0]);
+    const Vec3& origin = mesh.points[first];
+    result[first] +=
+        dot(minus(mesh.points[face[0]], origin),
+            cross(minus(mesh.points[face[1]], origin), minus(mesh.points[face[2]], origin)));
+  }
+  return result;
+}
+
+/// Things thinner than what rounding moves.
+void find_turned_components(const Mesh& rounded, const Mesh& exact, RoundingFaults& faults) {
+  DisjointSets component(exact.points.size());
+  for (const auto& [a, b, c] : exact.faces) {
+    component.unite(a, b);
+    component.unite(b, c);
+  }
+  const std::vector<double> before = volumes(exact, component);
+  const std::vector<double> after = volumes(rounded, component);
+  for (std::size_t v = 0; v < before.size(); ++v)
+    if (before[v] * after[v] < 0) ++faults.count;
+}
+
 }  // namespace
 
-RoundingFaults find_faults(const Mesh& mesh, const PlaceCounts& counts) {
+RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact, const PlaceCounts& counts) {
   RoundingFaults faults;
-  find_shared_places(mesh, counts, faults);
-  find_meeting_faces(mesh, find_flat_faces(mesh, faults), faults);
+  find_shared_places(rounded, counts, faults);
+  find_meeting_faces(rounded, find_flat_faces(rounded, faults), faults);
+  find_turned_components(rounded, exact, faults);
   std::ranges::sort(faults.vertices);
   const auto rest = std::ranges::unique(faults.vertices);
   faults.vertices.erase(rest.begin(), rest.end());

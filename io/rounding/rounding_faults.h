@@ -11,14 +11,16 @@
 namespace loft::io {
 
 /// What is wrong with a surface whose places are rounded: faces without area, pairs of faces that
-/// meet, vertices that share their place.
+/// meet, vertices that share their place, components that are turned inside out.
 struct RoundingFaults {
   std::size_t count = 0;
   std::vector<std::uint32_t> vertices;  ///< that have to do with one, in order
 };
 
-/// All faults, by exact tests; of pairs of faces as many as check() finds. `counts`: of all
-/// vertices that must not share a place. Cost: O(n log n) in practice.
-[[nodiscard]] RoundingFaults find_faults(const Mesh& mesh, const PlaceCounts& counts);
+/// All faults, by exact tests; of pairs of faces as many as check() finds. `exact`: the mesh before
+/// its places were rounded. `counts`: of all vertices that must not share a place.
+/// Cost: O(n log n) in practice.
+[[nodiscard]] RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact,
+                                         const PlaceCounts& counts);
 
 }  // namespace loft::io

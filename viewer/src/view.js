@@ -2,6 +2,7 @@
 // The picture of the surface: what the server says goes in, frames come out.
 import { Box3 } from 'three';
 import { Batch, diagonal } from './batch.js';
+import { fetchMany } from './bundles.js';
 import { colouring, explain } from './colours.js';
 import { Contours } from './contours.js';
 import { Frame, nameOf } from './frame.js';
@@ -17,6 +18,8 @@ import { Surroundings } from './surroundings.js';
 const settleEvery = 100;  // ms
 const quiet = 200;        // ms without an edit
 const lossAfter = 2000;   // ms for which an event may be behind
+const loadingStep = 500;  // ms from frame to frame while much is loaded
+const many = 8;           // slabs that are worth a request for all of them
 
 export class View {
   #panel;
@@ -40,6 +43,7 @@ export class View {
   #mode = 'label';
   #wasMoved = false;   // by the user: then nothing is fitted any more
   #isStale = false;    // box and colours
+  #nextFrame;          // timer
   #settings;
   #legend = document.getElementById('legend');
 
@@ -123,8 +127,9 @@ export class View {
   // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
   // that point, if there is any.
   async pick(x, y) {
+    this.#batch.flush();
     const hit = hitAt(this.stage, this.#batch.mesh, x, y);
-    const slab = hit && [...this.#slots].find(([, slot]) => slot.instance === hit.batchId)?.[0];
+    const slab = hit && [...this.#slots].find(([, slot]) => this.#batch.isHit(slot, hit))?.[0];
     this.forgetPick();
     if (!slab) return undefined;
     const pick = this.#picks;
@@ -144,12 +149,26 @@ export class View {
   }
 
   #fetch(slabs) {
+    if (slabs.length >= many) return this.#fetchMany(slabs);
     for (const slab of slabs)
       this.#ask(slab, () => this.#slabs.isPending(slab), (content) => {
         Object.assign(slab, content);
         this.#slabs.arrive(slab, performance.now());
         this.#showPending();
       }, () => this.#miss(slab));
+  }
+
+  #fetchMany(slabs) {
+    fetchMany(this.#loader, slabs, {
+      isKnown: (id) => this.#slabs.has(id),
+      isWanted: (slab) => this.#slabs.isPending(slab),
+      take: (slab, content) => {
+        Object.assign(slab, content);
+        this.#slabs.arrive(slab, performance.now());
+      },
+      miss: (slab) => this.#miss(slab),
+      done: () => this.#showPending(),
+    });
   }
 
   // A slab may be gone before it could be fetched: then an event says so soon, or was lost.
@@ -222,14 +241,21 @@ export class View {
     if (this.#settings) this.apply(this.#settings);
   }
 
+  // While much is on its way frames are few: each of them holds up the rest.
   #refreshLater() {
     this.#isStale = true;
-    this.stage.invalidate();
+    if (this.#slabs.pending < many) return this.stage.invalidate();
+    this.#nextFrame ??= setTimeout(() => {
+      this.#nextFrame = undefined;
+      this.stage.invalidate();
+    }, loadingStep);
   }
 
   // Ahead of a frame.
   #prepare() {
+    this.#batch.flush();
     if (this.#isStale) this.#refresh();
+    this.#batch.flush();
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
