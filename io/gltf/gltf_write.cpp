@@ -33,6 +33,20 @@ Frame frame_of(std::span<const Part> parts, const WriteOptions& options) {
   return {options.origin ? *options.origin : centre_of(extent(parts)), options.metres_per_unit};
 }
 
+/// The heights of slices, around the frame's centre; of tilted ones there are too many.
+std::vector<double> levels_of(std::span<const Part> parts, const Frame& frame) {
+  constexpr std::size_t most = 0xffff;
+  std::set<double> levels;
+  for (const Part& part : parts)
+    for (const auto vertex : part.surface->vertices()) {
+      if (part.surface->data(vertex).origin.kind != VertexKind::contour) continue;
+      if (levels.insert(frame.relative(place_of(*part.surface, vertex))[1]).second &&
+          levels.size() > most)
+        return {};
+    }
+  return {levels.begin(), levels.end()};
+}
+
 /// Of all that parts have, around the frame's centre, its axes turned.
 Grid grid_of(std::span<const Part> parts, const Frame& frame) {
   Box3 box = extent(parts);
@@ -42,7 +56,9 @@ Grid grid_of(std::span<const Part> parts, const Frame& frame) {
   if (!(box.low[0] <= box.high[0])) return {{}, {}};
   const Vec3 a = frame.relative(box.low);
   const Vec3 b = frame.relative(box.high);
-  return {{a[0], a[1], b[2]}, {b[0], b[1], a[2]}};
+  Grid grid({a[0], a[1], b[2]}, {b[0], b[1], a[2]});
+  grid.fit(levels_of(parts, frame), b[1]);
+  return grid;
 }
 
 bool is_open(const Surface& surface) {
