@@ -249,7 +249,7 @@ test('every control has a name and can be reached by the keyboard', async () => 
   for (const { role, name } of controls) assert.ok(name?.value, `a ${role.value} without a name`);
 
   const wanted = await viewer.page.evaluate(() => [...document.querySelectorAll(
-    'button, input, select, a, canvas')].filter((control) => control.checkVisibility() && !control.disabled)
+    'button, input, select, a, canvas')].filter((control) => control.checkVisibility() && !control.matches(':disabled'))
     .map((control) => control.id || control.getAttribute('href')));
   const reached = new Set();
   for (let i = 0; i < 2 * wanted.length; ++i) {

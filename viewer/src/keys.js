@@ -1,16 +1,26 @@
 // SPDX-License-Identifier: MIT
-// The keyboard. Arrows belong to the control that has the focus, letters to the page.
+// The keyboard. Arrows belong to the control that has the focus, letters to the page but where one
+// writes.
 
 const turn = Math.PI / 24;
 const zooms = { '+': 'dollyIn', '=': 'dollyIn', '-': 'dollyOut' };
 const nearer = 1 / 1.15;  // what dollyIn multiplies the distance by
 
-// Arrows move sliders and choose in lists; letters choose in lists.
-function takesArrows(target) {
-  return target instanceof HTMLSelectElement || target.type === 'range';
-}
+const plain = new Set(['range', 'checkbox', 'color']);  // inputs without letters
+
+// Letters are written in fields and choose in lists; arrows do, too, and move sliders.
 function takesLetters(target) {
-  return target instanceof HTMLSelectElement;
+  return target instanceof HTMLSelectElement ||
+         (target instanceof HTMLInputElement && !plain.has(target.type));
+}
+function takesArrows(target) {
+  return takesLetters(target) || target.type === 'range';
+}
+
+// As `actions` have it: `ctrl+shift+z`.
+function nameOf({ key, ctrlKey, metaKey, shiftKey }) {
+  const isCommand = ctrlKey || metaKey;
+  return `${isCommand ? 'ctrl+' : ''}${isCommand && shiftKey ? 'shift+' : ''}${key.toLowerCase()}`;
 }
 
 function move(controls, event) {
@@ -29,16 +39,18 @@ function move(controls, event) {
 // `actions`: what to do, by key.
 export function listenToKeys(stage, actions) {
   addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (document.querySelector('dialog[open]')) return;
-    if (event.key.startsWith('Arrow') && !takesArrows(event.target)) {
+    if (event.altKey || document.querySelector('dialog[open]')) return;
+    const isCommand = event.ctrlKey || event.metaKey;
+    if (takesLetters(event.target) && event.key !== 'Escape') return;
+    if (!isCommand && event.key.startsWith('Arrow')) {
+      if (takesArrows(event.target)) return;
       move(stage.controls, event);
-    } else if (event.key in zooms) {
+    } else if (!isCommand && event.key in zooms) {
       stage.controls.dispatchEvent({ type: 'start' });
       stage.controls[zooms[event.key]](nearer);
     } else {
-      const action = actions[event.key.toLowerCase()];
-      if (!action || (takesLetters(event.target) && event.key !== 'Escape')) return;
+      const action = actions[nameOf(event)];
+      if (!action) return;
       action();
     }
     event.preventDefault();

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: MIT
 // The picture of the surface: what the server says goes in, frames come out.
 import { Box3 } from 'three';
-import { Batch, diagonal } from './batch.js';
+import { diagonal } from './batch.js';
 import { fetchMany } from './bundles.js';
-import { colouring, explain } from './colours.js';
+import { colouring, explain, hexOf } from './colours.js';
 import { Contours } from './contours.js';
 import { Frame, nameOf } from './frame.js';
 import { Highlight } from './highlight.js';
+import { Layers } from './layers.js';
 import { Lines } from './lines.js';
 import { Loader } from './loader.js';
 import { hitAt, nearestPoint } from './pick.js';
@@ -20,10 +21,12 @@ const quiet = 200;        // ms without an edit
 const lossAfter = 2000;   // ms for which an event may be behind
 const loadingStep = 500;  // ms from frame to frame while much is loaded
 const many = 8;           // slabs that are worth a request for all of them
+const slicesAtOnce = 64;  // whose contours are drawn anew in a frame
 
 export class View {
   #panel;
-  #batch;
+  #labels;
+  #layers;
   #slabs;
   #slots = new Map();  // by slab, if it is shown and not empty
   #contours;
@@ -33,6 +36,7 @@ export class View {
   #picked;             // contour and point
   #worn = new Set();   // slabs with normals that are no longer right
   #renewal;            // timer
+  #redrawing;          // another
   #lose;
   #picks = 0;          // asked for: only the last one is answered
   #pickedZ;            // height of the contour point that is marked
@@ -47,22 +51,26 @@ export class View {
   #settings;
   #legend = document.getElementById('legend');
 
-  // lose() is called when what is shown here is not what the server has.
-  constructor(canvas, labels, panel, lose) {
+  // `lengths` are texts for the box's sides; lose() is called when what is shown here is not what
+  // the server has.
+  constructor(canvas, lengths, panel, labels, lose) {
     this.#panel = panel;
+    this.#labels = labels;
     this.#lose = lose;
     this.stage = new Stage(canvas);
-    this.#batch = new Batch(this.stage.scene, this.stage.material);
+    this.#layers = new Layers(this.stage.scene, this.stage.material, labels);
     this.#slabs = new Slabs((slab) => this.#show(slab), (slab) => this.#hide(slab));
     this.#contours = new Contours(this.#loader, (slice) => this.#draw(slice));
     this.#lines = new Lines(this.stage.scene);
-    this.#surroundings = new Surroundings(this.stage.scene, labels);
+    this.#surroundings = new Surroundings(this.stage.scene, lengths);
     this.#chosen = new Highlight(this.stage.scene, 2.5);
     this.#picked = new Highlight(this.stage.scene, 4);
     this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
     this.stage.onFrame(() => this.#prepare());
     this.stage.onResize(() => { if (!this.#wasMoved && this.#frame) this.fit(); });
     setInterval(() => this.#settle(), settleEvery);
+    labels.addEventListener('look', ({ detail }) => this.#applyLook(detail));
+    labels.addEventListener('list', () => this.#applyLook('opacity'));
   }
 
   get heights() { return this.#contours.heights; }
@@ -120,18 +128,19 @@ export class View {
   }
 
   fit() {
-    this.#wasMoved = false;
-    this.stage.fit(this.#box());
+    this.#wasMoved = this.#labels.isAnyHidden;  // what is hidden does not matter now
+    this.stage.fit(this.#box(({ label }) => this.#labels.isShown(label)));
   }
 
   // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
   // that point, if there is any.
   async pick(x, y) {
-    this.#batch.flush();
-    const hit = hitAt(this.stage, this.#batch.mesh, x, y);
-    const slab = hit && [...this.#slots].find(([, slot]) => this.#batch.isHit(slot, hit))?.[0];
+    this.#layers.flush();
+    const hit = this.#layers.meshes.map((mesh) => hitAt(this.stage, mesh, x, y)).find(Boolean);
+    const slab = hit && [...this.#slots].find(([, slot]) => this.#layers.isHit(slot, hit))?.[0];
     this.forgetPick();
     if (!slab) return undefined;
+    this.#labels.choose(slab.label);
     const pick = this.#picks;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
     if (pick !== this.#picks) return undefined;
@@ -213,8 +222,8 @@ export class View {
     if (this.#frame?.isFarFrom(slab.translation)) this.#leave();
     if (!this.#frame) this.#begin(slab);
     slab.positions = this.#frame.place(slab.positions, slab.translation);
-    const slot = this.#batch.add(slab);
-    this.#slots.set(slab, slot);
+    this.#labels.enter(slab.label, hexOf(slab));
+    this.#slots.set(slab, this.#layers.add(slab));
     for (const bulk of ['positions', 'normals', 'indices']) delete slab[bulk];
     this.#refreshLater();
   }
@@ -223,14 +232,18 @@ export class View {
     const slot = this.#slots.get(slab);
     if (!slot) return;
     this.#slots.delete(slab);
-    this.#batch.remove(slot);
+    this.#layers.remove(slot);
+    this.#labels.leave(slab.label);
     this.#refreshLater();
   }
 
   // What comes is so far away that both can't be shown: the old is what goes.
   #leave() {
     this.forgetPick();
-    for (const slot of this.#slots.values()) this.#batch.remove(slot);
+    for (const [slab, slot] of this.#slots) {
+      this.#layers.remove(slot);
+      this.#labels.leave(slab.label);
+    }
     this.#slots.clear();
     this.#frame = undefined;
     this.#wasMoved = false;
@@ -253,9 +266,9 @@ export class View {
 
   // Ahead of a frame.
   #prepare() {
-    this.#batch.flush();
+    this.#layers.flush();
     if (this.#isStale) this.#refresh();
-    this.#batch.flush();
+    this.#layers.flush();
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
@@ -264,8 +277,8 @@ export class View {
 
   #refresh() {
     this.#isStale = false;
-    const colours = colouring(this.#mode, [...this.#slots.keys()]);
-    for (const [slab, slot] of this.#slots) this.#batch.setColour(slot, colours.of(slab));
+    const colours = colouring(this.#mode, [...this.#slots.keys()], this.#labels);
+    for (const [slab, slot] of this.#slots) this.#layers.setColour(slot, colours.of(slab));
     explain(this.#legend, colours);
     if (!this.#frame) return;
     const box = this.#box();
@@ -274,10 +287,42 @@ export class View {
     else this.stage.fit(box);
   }
 
-  #box() {
+  #box(isIn = () => true) {
     const all = new Box3();
-    for (const slot of this.#slots.values()) all.union(slot.box);
+    for (const slot of this.#slots.values()) if (isIn(slot)) all.union(slot.box);
     return all;
+  }
+
+  #applyLook(what) {
+    if (what === 'visibility') this.#layers.applyVisibility();
+    else if (what === 'opacity') this.#layers.applyOpacity();
+    else this.#isStale = true;
+    if (what === 'visibility') this.#redrawLater();
+    this.stage.invalidate();
+  }
+
+  // Contours without those of hidden labels: some slices a frame, as soon as nothing changes.
+  #redrawLater() {
+    clearTimeout(this.#redrawing);
+    if (!this.#settings) return;
+    this.#redrawing = setTimeout(() => {
+      if (this.#lines.isShown) this.#redraw(this.heights);
+      else this.#lines.clear();
+      this.#applySlice(this.#settings.slice);
+    }, quiet);
+  }
+
+  #redraw(heights) {
+    for (const z of heights.slice(0, slicesAtOnce))
+      if (this.#contours.get(z)) this.#draw(this.#contours.get(z));
+    const rest = heights.slice(slicesAtOnce);
+    if (rest.length > 0) this.#redrawing = setTimeout(() => this.#redraw(rest));
+  }
+
+  // What is to be seen of a slice.
+  #shownPart(slice) {
+    const isShown = (_, contour) => this.#labels.isShown(slice.labels?.[contour] ?? '');
+    return slice && { ...slice, contours: slice.contours.filter(isShown) };
   }
 
   #applyCut(cut) {
@@ -286,7 +331,7 @@ export class View {
       this.stage.cut.normal.set(0, cut.keepsBelow ? -1 : 1, 0);
       this.stage.cut.constant = cut.keepsBelow ? y : -y;
     }
-    this.stage.setCut([this.stage.material, this.#lines.material], cut !== undefined);
+    this.stage.setCut([...this.#layers.materials, this.#lines.material], cut !== undefined);
   }
 
   #applyContours(areShown) {
@@ -301,7 +346,7 @@ export class View {
 
   #draw(slice) {
     if (!this.#frame || !this.#lines.isShown) return;
-    this.#lines.set(slice, this.#frame);
+    this.#lines.set(this.#shownPart(slice), this.#frame);
     this.stage.invalidate();
   }
 
@@ -309,7 +354,7 @@ export class View {
     const slice = z === undefined ? undefined : await this.#contours.ask(z);
     const isOutdated = z !== this.#settings.slice;
     if (!this.#frame || isOutdated) return;
-    this.#chosen.showSlice(slice, this.#frame);
+    this.#chosen.showSlice(this.#shownPart(slice), this.#frame);
     this.stage.invalidate();
   }
 
