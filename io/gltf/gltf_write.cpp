@@ -10,12 +10,12 @@
 #include "io/bytes/utf8.h"
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_model.h"
-#include "io/gltf/grid.h"
 #include "io/gltf/meshopt.h"
 #include "io/gltf/node_extras.h"
 #include "io/gltf/packed.h"
 #include "io/gltf/shading.h"
 #include "io/meshes/extent.h"
+#include "io/meshes/grid.h"
 #include "io/meshes/skin.h"
 #include "mesh/vec3.h"
 #include "reconstruct/defect.h"
@@ -106,7 +106,8 @@ class Composer {
  public:
   Composer(std::span<const Part> parts, const WriteOptions& options)
       : parts_(parts), options_(options), frame_(frame_of(parts, options)) {
-    if (options.compression != Compression::none) grid_ = grid_of(parts, frame_);
+    if (options.compression == Compression::none) return;
+    grid_ = options.grid ? *options.grid : grid_of(parts, frame_);
   }
 
   void write(std::ostream& out, bool binary) {
@@ -278,6 +279,10 @@ void write_glb(std::ostream& out, std::span<const Part> parts, const WriteOption
 
 void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptions& options) {
   Composer(parts, options).write(out, false);
+}
+
+Grid compression_grid(std::span<const Part> parts, const WriteOptions& options) {
+  return grid_of(parts, frame_of(parts, options));
 }
 
 double quantisation_error(std::span<const Part> parts) {

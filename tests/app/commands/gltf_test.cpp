@@ -57,7 +57,7 @@ TEST(GltfOptions, CompressedFilesAreCheckedAndDescribed) {
       EXPECT_THAT(made.err, HasSubstr("libmeshoptimizer-dev"));
       continue;
     }
-    EXPECT_THAT(made.err, HasSubstr("positions in glTF are rounded by at most 0.0"));
+    EXPECT_THAT(made.err, HasSubstr("out.glb: positions are rounded by at most 0.0"));
     EXPECT_EQ(run(folder, "check out.glb").exit_code, 0);
     const auto info = nlohmann::json::parse(run(folder, "info out.glb --json").out);
     EXPECT_EQ(info["parts"].size(), 2U) << info;

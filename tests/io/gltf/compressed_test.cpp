@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/gltf/gltf.h"
-#include "io/gltf/grid.h"
+#include "io/meshes/grid.h"
 #include "io/gltf/meshopt.h"
 #include "io/meshes/part.h"
 #include "mesh/vec3.h"

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: MIT
-// For sources of io/gltf only.
 #pragma once
 
 #include <array>

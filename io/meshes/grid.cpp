@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf/grid.h"
+#include "io/meshes/grid.h"
 
 #include <algorithm>
 #include <cmath>
