@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/server/shown_label.h"
 
-#include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 
 #include "io/meshes/label_colour.h"
@@ -12,31 +9,14 @@ namespace loft::app {
 
 namespace {
 
-/// A linear share as screens have it (IEC 61966-2-1), in two hexadecimal digits.
-std::string hexadecimal(double share) {
-  const double curved =
-      share <= 0.0031308 ? 12.92 * share : 1.055 * std::pow(share, 1 / 2.4) - 0.055;
-  const auto value = static_cast<unsigned>(std::lround(255 * std::clamp(curved, 0.0, 1.0)));
-  constexpr std::string_view digits = "0123456789abcdef";
-  return {digits[value / 16], digits[value % 16]};
-}
-
-std::string colour_of(const std::string& label) {
-  std::string text = "#";
-  for (const double share : io::label_colour(label)) text += hexadecimal(share);
-  return text;
-}
-
 Json one_to_json(const ShownLabel& label) {
-  return {{"label", label.label},   {"colour", colour_of(label.label)}, {"is_skin", label.is_skin},
-          {"slices", label.slices}, {"volume", label.volume},           {"area", label.area},
+  return {{"label", label.label},
+          {"colour", io::hexadecimal(io::srgb(io::label_colour(label.label)))},
+          {"is_skin", label.is_skin},
+          {"slices", label.slices},
+          {"volume", label.volume},
+          {"area", label.area},
           {"faces", label.faces}};
-}
-
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-
-char in_lower_case(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
 }
 
 }  // namespace
@@ -45,20 +25,6 @@ Json to_json(std::span<const ShownLabel> labels) {
   Json all = Json::array();
   for (const ShownLabel& label : labels) all.push_back(one_to_json(label));
   return {{"labels", std::move(all)}};
-}
-
-bool is_skin(std::string_view label, std::string_view kind) {
-  if (kind == "EXTERNAL" || kind == "BODY") return true;
-  constexpr std::array<std::string_view, 3> names{"external", "body", "skin"};
-  for (auto begin = label.begin(); begin != label.end();) {
-    begin = std::find_if(begin, label.end(), is_letter);
-    const auto end = std::find_if_not(begin, label.end(), is_letter);
-    std::string word(begin, end);
-    std::ranges::transform(word, word.begin(), in_lower_case);
-    if (std::ranges::find(names, word) != names.end()) return true;
-    begin = end;
-  }
-  return false;
 }
 
 double area(const Mesh& mesh) {
