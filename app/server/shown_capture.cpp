@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/capture/surfaces.h"
+#include "io/meshes/skin.h"
 #include "io/surfaces.h"
 
 namespace loft::app {
@@ -83,7 +84,7 @@ std::vector<ShownLabel> ShownCapture::labels() {
 ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
                                  const MeasuredSlabs& before, MeasuredSlabs& now) {
   const auto& [label, snapshot] = view.parts[part];
-  ShownLabel about{.label = label, .is_skin = is_skin(label), .volume = snapshot.volume()};
+  ShownLabel about{.label = label, .is_skin = io::is_skin(label), .volume = snapshot.volume()};
   for (std::size_t i = 0; i < snapshot.slab_count(); ++i) {
     const SlabKey key{part, snapshot.slab(i).id};
     const auto known = before.find(key);

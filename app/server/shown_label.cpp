@@ -2,9 +2,8 @@
 #include "app/server/shown_label.h"
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
+#include <string_view>
 
 #include "io/meshes/label_colour.h"
 
@@ -33,32 +32,12 @@ Json one_to_json(const ShownLabel& label) {
           {"faces", label.faces}};
 }
 
-bool is_letter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; }
-
-char in_lower_case(char c) {
-  return static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-}
-
 }  // namespace
 
 Json to_json(std::span<const ShownLabel> labels) {
   Json all = Json::array();
   for (const ShownLabel& label : labels) all.push_back(one_to_json(label));
   return {{"labels", std::move(all)}};
-}
-
-bool is_skin(std::string_view label, std::string_view kind) {
-  if (kind == "EXTERNAL" || kind == "BODY") return true;
-  constexpr std::array<std::string_view, 3> names{"external", "body", "skin"};
-  for (auto begin = label.begin(); begin != label.end();) {
-    begin = std::find_if(begin, label.end(), is_letter);
-    const auto end = std::find_if_not(begin, label.end(), is_letter);
-    std::string word(begin, end);
-    std::ranges::transform(word, word.begin(), in_lower_case);
-    if (std::ranges::find(names, word) != names.end()) return true;
-    begin = end;
-  }
-  return false;
 }
 
 double area(const Mesh& mesh) {

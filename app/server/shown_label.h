@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "app/json.h"
 #include "mesh/mesh.h"
@@ -23,10 +22,6 @@ struct ShownLabel {
 
 /// `{"labels":[{"label","colour":"#rrggbb","is_skin","slices","volume","area","faces"}]}`
 [[nodiscard]] Json to_json(std::span<const ShownLabel> labels);
-
-/// Whether a structure is the outside of a body: by the type that its source gives it (EXTERNAL,
-/// BODY), else by its name, where `external`, `body` or `skin` is a word in it.
-[[nodiscard]] bool is_skin(std::string_view label, std::string_view kind = "");
 
 /// The sum of the areas of all faces.
 [[nodiscard]] double area(const Mesh& mesh);

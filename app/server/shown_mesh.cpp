@@ -8,6 +8,7 @@
 #include "io/bytes/file.h"
 #include "io/gltf/slab_glb.h"
 #include "io/meshes.h"
+#include "io/meshes/skin.h"
 #include "io/version.h"
 
 namespace loft::app {
@@ -44,7 +45,7 @@ ShownMesh::ShownMesh(std::filesystem::path file, std::string unit)
     const Measures measures = measure(mesh.mesh);
     add(sum_, measures);
     ShownLabel about{.label = mesh.label,
-                     .is_skin = is_skin(mesh.label),
+                     .is_skin = io::is_skin(mesh.label),
                      .volume = measures.volume,
                      .area = measures.area,
                      .faces = measures.faces};
