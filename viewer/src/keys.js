@@ -26,7 +26,13 @@ function move(controls, event) {
   }
 }
 
-// `actions`: what to do, by key.
+// Digits by their keys: with Shift they are other characters.
+function nameOf({ key, code, shiftKey }) {
+  const name = /^Digit\d$/.test(code) ? code.at(-1) : key.toLowerCase();
+  return shiftKey && /^[a-z\d]$/.test(name) ? `shift+${name}` : name;
+}
+
+// `actions`: what to do, by key ('x', 'shift+x').
 export function listenToKeys(stage, actions) {
   addEventListener('keydown', (event) => {
     if (event.ctrlKey || event.metaKey || event.altKey) return;
@@ -37,7 +43,7 @@ export function listenToKeys(stage, actions) {
       stage.controls.dispatchEvent({ type: 'start' });
       stage.controls[zooms[event.key]](nearer);
     } else {
-      const action = actions[event.key.toLowerCase()];
+      const action = actions[nameOf(event)];
       if (!action || (takesLetters(event.target) && event.key !== 'Escape')) return;
       action();
     }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+import { CutControls } from './cut_controls.js';
 import { Events } from './events.js';
 import { onClick } from './pick.js';
 import { nameOf } from './frame.js';
@@ -13,6 +14,7 @@ const element = (id) => document.getElementById(id);
 const panel = new Panel();
 const theme = new Theme();
 const settings = new Settings();
+const cut = new CutControls();
 const events = new Events();
 const view = makeView();
 
@@ -58,16 +60,21 @@ function showFigures() {
   });
 }
 
+function setHeights() {
+  settings.setHeights(view.heights, view.unit);
+  cut.setHeights(view.heights, view.range, view.unit);
+}
+
 function showSurface() {
   events.addEventListener('reset', ({ detail }) => {
     view.reset(detail);
-    settings.setHeights(view.heights, view.range, view.unit);
+    setHeights();
     view.apply(settings);
   });
   events.addEventListener('change', ({ detail }) => {
     panel.addLatency(detail.latency_ms);
     if (!view.change(detail)) return events.restart();  // something was missed
-    settings.setHeights(view.heights, view.range, view.unit);
+    setHeights();
     view.apply(settings);
   });
 }
@@ -80,6 +87,10 @@ async function pick(x, y) {
 
 function connectControls() {
   settings.addEventListener('change', () => view.apply(settings));
+  view.cut.control(cut);
+  for (const axis of ['x', 'y', 'z'])
+    element(`cut-${axis}`).addEventListener('click', () => view.cut.cutAcross(axis));
+  element('cut-view').addEventListener('click', () => view.cut.faceEye());
   theme.addEventListener('change', applyTheme);
   element('fit').addEventListener('click', () => view.fit());
   element('theme').addEventListener('click', () => theme.toggle());
@@ -89,8 +100,15 @@ function connectControls() {
     f: () => view.fit(),
     c: () => settings.toggle('contours'),
     s: () => settings.reach('slice'),
-    x: () => settings.reach('cut'),
-    v: () => settings.toggle('cut-below'),
+    x: () => cut.reach(),
+    'shift+x': () => view.cut.cutAcross('x'),
+    'shift+y': () => view.cut.cutAcross('y'),
+    'shift+z': () => view.cut.cutAcross('z'),
+    n: () => view.cut.faceEye(),
+    ',': () => cut.step(false),
+    '.': () => cut.step(true),
+    v: () => cut.toggle('cut-below'),
+    b: () => cut.toggle('cut-slab'),
     l: () => settings.nextColour(),
     p: () => pick(0, 0),
     t: () => theme.toggle(),

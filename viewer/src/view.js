@@ -4,12 +4,14 @@ import { Box3 } from 'three';
 import { Batch, diagonal } from './batch.js';
 import { colouring, explain } from './colours.js';
 import { Contours } from './contours.js';
+import { CutView } from './cut_view.js';
 import { Frame, nameOf } from './frame.js';
 import { Highlight } from './highlight.js';
 import { Lines } from './lines.js';
 import { Loader } from './loader.js';
 import { hitAt, nearestPoint } from './pick.js';
 import { parseSlab } from './glb.js';
+import { integralsOf } from './solid.js';
 import { Slabs } from './slabs.js';
 import { Stage } from './scene.js';
 import { Surroundings } from './surroundings.js';
@@ -26,6 +28,7 @@ export class View {
   #contours;
   #lines;
   #surroundings;
+  #cut;
   #chosen;             // the slice
   #picked;             // contour and point
   #worn = new Set();   // slabs with normals that are no longer right
@@ -53,6 +56,8 @@ export class View {
     this.#contours = new Contours(this.#loader, (slice) => this.#draw(slice));
     this.#lines = new Lines(this.stage.scene);
     this.#surroundings = new Surroundings(this.stage.scene, labels);
+    this.#cut = new CutView(this.stage, { surfaces: [this.stage.material], lines: [this.#lines.material] },
+                            (z) => this.#contours.ask(z));
     this.#chosen = new Highlight(this.stage.scene, 2.5);
     this.#picked = new Highlight(this.stage.scene, 4);
     this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
@@ -70,6 +75,8 @@ export class View {
     this.stage.background = background;
     this.#surroundings.colour = grid;
     this.#lines.material.color.set(lines);
+    this.#cut.lineColour = lines;
+    this.#cut.colour = accent;
     this.#chosen.colour = accent;
     this.#picked.colour = accent;
   }
@@ -109,11 +116,12 @@ export class View {
     this.#mode = settings.colour;
     this.#isStale = true;
     if (!this.#frame) return;
-    this.#applyCut(settings.cut);
     this.#applyContours(settings.hasContours);
     this.#applySlice(settings.slice);
     this.stage.invalidate();
   }
+
+  get cut() { return this.#cut; }
 
   fit() {
     this.#wasMoved = false;
@@ -194,6 +202,7 @@ export class View {
     if (this.#frame?.isFarFrom(slab.translation)) this.#leave();
     if (!this.#frame) this.#begin(slab);
     slab.positions = this.#frame.place(slab.positions, slab.translation);
+    slab.integrals = integralsOf(slab.positions, slab.indices);
     const slot = this.#batch.add(slab);
     this.#slots.set(slab, slot);
     for (const bulk of ['positions', 'normals', 'indices']) delete slab[bulk];
@@ -232,8 +241,9 @@ export class View {
     if (this.#isStale) this.#refresh();
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
-      highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
+      highlight.keepSize(this.stage);
     this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
+    this.#cut.prepare();
   }
 
   #refresh() {
@@ -241,6 +251,7 @@ export class View {
     const colours = colouring(this.#mode, [...this.#slots.keys()]);
     for (const [slab, slot] of this.#slots) this.#batch.setColour(slot, colours.of(slab));
     explain(this.#legend, colours);
+    this.#cut.fill(this.#pieces(), this.#box(), this.#frame);
     if (!this.#frame) return;
     const box = this.#box();
     this.#panel.showGrid(this.#surroundings.surround(box, this.#frame, this.#unit), this.#unit);
@@ -248,19 +259,17 @@ export class View {
     else this.stage.fit(box);
   }
 
+  // For the caps of a cut.
+  #pieces() {
+    const { of: colourOf } = colouring('label', []);
+    return [...this.#slots].map(([slab, { instance }]) => ({ label: slab.label, integrals: slab.integrals,
+      colour: colourOf(slab), opacity: 1, mesh: this.#batch.mesh, instance }));
+  }
+
   #box() {
     const all = new Box3();
     for (const slot of this.#slots.values()) all.union(slot.box);
     return all;
-  }
-
-  #applyCut(cut) {
-    if (cut) {
-      const { y } = this.#frame.toScene(0, 0, cut.z);
-      this.stage.cut.normal.set(0, cut.keepsBelow ? -1 : 1, 0);
-      this.stage.cut.constant = cut.keepsBelow ? y : -y;
-    }
-    this.stage.setCut([this.stage.material, this.#lines.material], cut !== undefined);
   }
 
   #applyContours(areShown) {
@@ -293,7 +302,7 @@ export class View {
     const points = nearest?.slice.contours[nearest.contour];
     this.#picked.showSlice(points && { z: nearest.slice.z, contours: [points] }, this.#frame);
     const place = points && this.#frame.toScene(...points[nearest.point], nearest.slice.z);
-    this.#picked.showPoint(place, this.stage.camera, this.stage.canvas.clientHeight);
+    this.#picked.showPoint(place, this.stage);
     this.stage.invalidate();
   }
 
