@@ -4,6 +4,7 @@
 import { BufferGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute, Group, LineBasicMaterial,
          LineLoop, Mesh, MeshBasicMaterial, Raycaster, Sphere, SphereGeometry, Vector2,
          Vector3 } from 'three';
+import { handleLayer } from './scene.js';
 
 const reach = { cone: 54, ball: 84 };  // pixels from the plane
 const grip = 14;                       // pixels around them
@@ -46,10 +47,12 @@ export class CutHandle extends EventTarget {
     const ball = new Mesh(new SphereGeometry(7, 24, 16).translate(0, reach.ball, 0), this.#material);
     for (const part of [shaft, cone, ball]) {
       part.renderOrder = 11;
+      part.layers.set(handleLayer);
       part.frustumCulled = false;
       this.#group.add(part);
     }
     this.#outline.frustumCulled = false;
+    this.#outline.layers.set(handleLayer);
     this.#group.visible = this.#outline.visible = false;
     stage.scene.add(this.#group, this.#outline);
     this.#listen(stage.canvas);

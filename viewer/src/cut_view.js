@@ -24,6 +24,7 @@ export class CutView {
   #box = new Box3();
   #planes = [];
   #slice;  // whose contours are shown
+  #volumes = new Map();
 
   // `materials`: { surfaces, lines } that the cut goes through; ask(z) resolves to the contours of
   // a slice.
@@ -39,6 +40,11 @@ export class CutView {
       this.#controls.turnAway(directionToInput(direction), this.#frame.toInput(pivot)));
   }
 
+  // The plane that is filled, as the eye sees it; undefined where there is none.
+  get cap() { return this.#planes.find((plane) => this.#stage.isBehind(plane)); }
+  // Of the labels that close, by label; undefined instead of a volume for those that do not.
+  get volumes() { return this.#volumes; }
+
   set colour(accent) { this.#handle.colour = accent; }
   set lineColour(colour) { this.#contours.colour = colour; }
 
@@ -51,7 +57,8 @@ export class CutView {
   fill(pieces, box, frame) {
     this.#box = box;
     this.#frame = frame;
-    this.#showInsides(this.#caps.assign(pieces));
+    this.#volumes = this.#caps.assign(pieces);
+    this.#showInsides();
     this.#slice = undefined;  // it may have changed
     if (!frame || box.isEmpty()) return;
     const ends = [box.min, box.max].map((corner) => frame.toInput(corner));
@@ -93,14 +100,13 @@ export class CutView {
     this.#handle.keepSize();
     const { camera } = this.#stage;
     const size = 4 * this.#box.getSize(new Vector3()).length();
-    const facing = this.#planes.find((plane) => this.#stage.isBehind(plane));
-    this.#caps.draw(facing, this.#box.getCenter(new Vector3()), size, camera);
+    this.#caps.draw(this.cap, this.#box.getCenter(new Vector3()), size, camera);
   }
 
   // Where all labels close, and cuts are filled, nothing is to be seen from inside: at outlines
   // bits of it would show through.
-  #showInsides(volumes) {
-    const side = [...volumes.values()].includes(undefined) ? DoubleSide : FrontSide;
+  #showInsides() {
+    const side = [...this.#volumes.values()].includes(undefined) ? DoubleSide : FrontSide;
     for (const material of this.#materials.surfaces) {
       if (material.side === side) continue;
       material.side = side;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: MIT
+import { lookAlong } from './axis_views.js';
 import { CutControls } from './cut_controls.js';
 import { Events } from './events.js';
 import { onClick } from './pick.js';
 import { nameOf } from './frame.js';
 import { listenToKeys } from './keys.js';
+import { Measuring } from './measuring.js';
+import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
+import { savePicture } from './screenshot.js';
 import { Settings } from './settings.js';
 import { Theme } from './theme.js';
 import { View } from './view.js';
@@ -17,6 +21,8 @@ const settings = new Settings();
 const cut = new CutControls();
 const events = new Events();
 const view = makeView();
+const measuring = view && new Measuring(view, element('figures'));
+const overlay = new Overlay();
 
 // None where the browser has no WebGL.
 function makeView() {
@@ -32,6 +38,7 @@ function makeView() {
 function applyTheme() {
   view.setColours({ background: theme.colour('stage'), grid: theme.colour('grid'),
                     lines: theme.colour('contour'), accent: theme.colour('accent') });
+  measuring.colour = theme.colour('accent');
   element('theme').setAttribute('aria-pressed', String(theme.isDark));
 }
 
@@ -68,6 +75,7 @@ function setHeights() {
 function showSurface() {
   events.addEventListener('reset', ({ detail }) => {
     view.reset(detail);
+    overlay.isPatient = detail.is_patient === true;
     setHeights();
     view.apply(settings);
   });
@@ -80,12 +88,36 @@ function showSurface() {
 }
 
 async function pick(x, y) {
+  if (measuring.isOn) return measuring.add(x, y);
   const nearest = await view.pick(x, y);
   if (nearest) settings.choose(nearest.slice.z);
   view.apply(settings);
 }
 
+function savePng() {
+  const words = document.querySelectorAll('#lengths span, #figures span, #letters span, #scale span');
+  return savePicture(view.stage, Number(element('picture-size').value),
+                     { words, bar: element('scale') }, 'surface.png');
+}
+
+function toggleParallel() {
+  view.stage.toggleParallel();
+  element('parallel').setAttribute('aria-pressed', String(view.stage.isParallel));
+}
+
+function connectPicture() {
+  view.stage.onFrame(() => overlay.follow(view.stage, view.frame, view.unit));
+  element('parallel').addEventListener('click', toggleParallel);
+  element('picture').addEventListener('click', savePng);
+}
+
+function forget() {
+  measuring.drop();
+  view.forgetPick();
+}
+
 function connectControls() {
+  connectPicture();
   settings.addEventListener('change', () => view.apply(settings));
   view.cut.control(cut);
   for (const axis of ['x', 'y', 'z'])
@@ -110,10 +142,23 @@ function connectControls() {
     v: () => cut.toggle('cut-below'),
     b: () => cut.toggle('cut-slab'),
     l: () => settings.nextColour(),
+    m: () => measuring.toggle(),
+    'shift+m': () => measuring.nextKind(),
+    backspace: () => measuring.removeLast(),
+    delete: () => measuring.removeLast(),
+    1: () => lookAlong(view.stage, 'x'),
+    2: () => lookAlong(view.stage, 'y'),
+    3: () => lookAlong(view.stage, 'z'),
+    'shift+1': () => lookAlong(view.stage, 'x', true),
+    'shift+2': () => lookAlong(view.stage, 'y', true),
+    'shift+3': () => lookAlong(view.stage, 'z', true),
+    5: toggleParallel,
+    o: toggleParallel,
+    'shift+p': savePng,
     p: () => pick(0, 0),
     t: () => theme.toggle(),
     '?': help,
-    escape: () => view.forgetPick(),
+    escape: forget,
   });
 }
 

@@ -5,6 +5,8 @@ import { Color, DirectionalLight, DoubleSide, HemisphereLight, MeshStandardMater
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
 import { Cameras } from './cameras.js';
 
+export const handleLayer = 1;
+
 const isStill = matchMedia('(prefers-reduced-motion: reduce)');
 
 // Inside of the surface, where a cut opens it, the colour is deeper.
@@ -37,6 +39,7 @@ export class Stage {
     this.controls.dampingFactor = 0.12;
     this.controls.addEventListener('change', () => this.invalidate());
     this.#light();
+    this.hasHandles = true;
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
     this.#resize();
@@ -45,6 +48,12 @@ export class Stage {
   // Perspective or parallel.
   get camera() { return this.#cameras.current; }
   get isParallel() { return this.camera.isOrthographicCamera === true; }
+
+  // Whether what things are dragged by is drawn: it is on a layer of its own.
+  set hasHandles(areShown) {
+    for (const camera of this.#cameras.all)
+      camera.layers[areShown ? 'enable' : 'disable'](handleLayer);
+  }
 
   // Of surfaces.
   makeMaterial(more = {}) {

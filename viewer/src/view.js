@@ -11,6 +11,7 @@ import { Lines } from './lines.js';
 import { Loader } from './loader.js';
 import { hitAt, nearestPoint } from './pick.js';
 import { parseSlab } from './glb.js';
+import { trianglesOf } from './section.js';
 import { integralsOf } from './solid.js';
 import { Slabs } from './slabs.js';
 import { Stage } from './scene.js';
@@ -68,6 +69,7 @@ export class View {
 
   get heights() { return this.#contours.heights; }
   get unit() { return this.#unit; }
+  get frame() { return this.#frame; }
   // From the lowest to the highest height.
   get range() { return this.#slabs.range; }
 
@@ -128,17 +130,36 @@ export class View {
     this.stage.fit(this.#box());
   }
 
+  // What lies under a place of the screen (-1 to 1): its slab, the point in the scene, the place in
+  // the input's coordinates.
+  hitAt(x, y) {
+    if (!this.#frame) return undefined;
+    const slabs = new Map([...this.#slots].map(([slab, slot]) => [slot.instance, slab]));
+    const slabOf = ({ batchId }) => slabs.get(batchId);
+    const { cap, volumes } = this.#cut;
+    const hit = hitAt(this.stage, [this.#batch.mesh], [x, y],
+                      { cap, volumes, labelOf: (one) => slabOf(one).label });
+    if (!hit) return undefined;
+    const place = this.#frame.toInput(hit.point);
+    return { point: hit.point, place, slab: this.#slabAround(slabOf(hit), place[2]) };
+  }
+
+  // All triangles of a label that are in the picture.
+  trianglesOf(label) {
+    const slots = [...this.#slots].filter(([slab]) => slab.label === label);
+    return trianglesOf(this.#batch.mesh, slots.map(([, { geometry }]) => geometry));
+  }
+
   // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
   // that point, if there is any.
   async pick(x, y) {
-    const hit = hitAt(this.stage, this.#batch.mesh, x, y);
-    const slab = hit && [...this.#slots].find(([, slot]) => slot.instance === hit.batchId)?.[0];
+    const hit = this.hitAt(x, y);
     this.forgetPick();
-    if (!slab) return undefined;
+    if (!hit) return undefined;
+    const { slab, place } = hit;
     const pick = this.#picks;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
     if (pick !== this.#picks) return undefined;
-    const place = this.#frame.toInput(hit.point);
     const nearest = nearestPoint(slices.filter(Boolean), place, slab.label);
     this.#panel.showPick(slab, place, nearest, this.unit, this.range);
     this.#mark(nearest);
@@ -149,6 +170,13 @@ export class View {
     ++this.#picks;
     this.#mark(undefined);
     this.#panel.forgetPick();
+  }
+
+  // Inside of a label it is the slab at that height: a hit is of what lies beyond it.
+  #slabAround(slab, z) {
+    const isAround = ({ low, high }) => low <= z && z <= high;
+    if (isAround(slab)) return slab;
+    return [...this.#slots.keys()].find((other) => other.label === slab.label && isAround(other)) ?? slab;
   }
 
   #fetch(slabs) {
