@@ -60,6 +60,24 @@ export class Layers {
     this.#clear.flush();
   }
 
+  // Where it is drawn.
+  placeOf({ batch, place }) {
+    return { mesh: batch.mesh, instance: place.instance };
+  }
+
+  // A function that says whose a hit of the raycaster is.
+  labelling() {
+    const labels = new Map(this.meshes.map((mesh) => [mesh, new Map()]));
+    for (const [label, { slots }] of this.#groups)
+      for (const { batch, place } of slots) labels.get(batch.mesh).set(place.instance, label);
+    return ({ object, batchId }) => labels.get(object).get(batchId);
+  }
+
+  // What add() was given of a label.
+  contentsOf(label) {
+    return [...(this.#groups.get(label)?.slots ?? [])].map(({ batch, place }) => batch.contentOf(place));
+  }
+
   setColour(slot, colour) {
     slot.colour.copy(colour);
     slot.batch.setColour(slot.place, slot.colour, slot.opacity);
