@@ -10,7 +10,7 @@
 set -eu
 
 packages="g++ cmake ninja-build pkg-config libopenmesh-dev libeigen3-dev libtbb-dev
-  libtinygltf-dev libsqlite3-dev zlib1g-dev libcsv-dev libdcmtk-dev libtiff-dev libpng-dev libcpp-httplib-dev libcli11-dev
+  libtinygltf-dev libsqlite3-dev zlib1g-dev libcsv-dev libdcmtk-dev libtiff-dev libpng-dev libmeshoptimizer-dev libzip-dev libcpp-httplib-dev libcli11-dev
   nlohmann-json3-dev"
 what=${1:-}
 if [ "$what" = fuzz ]; then

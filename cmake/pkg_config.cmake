@@ -18,7 +18,13 @@ if(NOT BUILD_SHARED_LIBS)
   if(LOFT_PNG)
     string(APPEND loft_requires ", libpng")
   endif()
+  if(LOFT_3MF)
+    string(APPEND loft_requires ", libzip")
+  endif()
   set(loft_libcsv " -lcsv")  # it has no file of pkg-config's
+  if(LOFT_MESHOPT)
+    set(loft_meshopt " -lmeshoptimizer")  # nor has it
+  endif()
   if(LOFT_DICOM)
     set(loft_dicom " -ldcmdata -loflog -lofstd")  # dcmtk.pc would link all of DCMTK
   endif()
@@ -32,7 +38,7 @@ Name: loft
 Description: @PROJECT_DESCRIPTION@
 Version: @PROJECT_VERSION@
 Requires: @loft_requires@
-Libs: -L${libdir} -lloft-io -lloft-reconstruct -lloft-mesh -lloft-fields -lloft-paths -lloft-overlay -lloft-cdt@loft_libcsv@@loft_dicom@
+Libs: -L${libdir} -lloft-io -lloft-reconstruct -lloft-mesh -lloft-fields -lloft-paths -lloft-overlay -lloft-cdt@loft_libcsv@@loft_meshopt@@loft_dicom@
 Cflags: -I${includedir}/loft -ffp-contract=off
 ]])
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/loft.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)

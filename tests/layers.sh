@@ -41,9 +41,10 @@ dicom         io/dicom/*                     volumes
 stacks        io/stacks/*                    contours images dicom
 meshes        io/meshes/*                    bytes
 gltf          io/gltf/*                      meshes
+rounding      io/rounding/*                  meshes
 planar        io/planar/*                    bytes
 session       io/session/*                   stacks
-io            io/{fields,maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf planar session
+io            io/{fields,maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf rounding planar session
 
 words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words
@@ -131,7 +132,7 @@ offenders=$(
   posix='(arpa|netinet|sys)/.*|(fcntl|netdb|poll|unistd)\.h'
   allow 'cdt overlay paths fields mesh' 'none'
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
-  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|csv\.h|tiffio\.h|png\.h"
+  allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|zip\.h|meshoptimizer\.h|csv\.h|tiffio\.h|png\.h"
   allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
   forbid 'cdt overlay paths fields mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'

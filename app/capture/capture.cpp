@@ -342,7 +342,10 @@ std::pair<std::string, std::uint64_t> Capture::reset_event() const {
     shown.assign(told_.slabs.begin(), told_.slabs.end());
     Json slices = Json::array();
     for (const auto& [z, slice] : told_.stack.slices()) slices.push_back(z);
-    event = {{"slices", std::move(slices)},
+    event = {{"kind", setup_.kind},
+             {"name", setup_.name},
+             {"is_patient", false},  // a stream has no frame
+             {"slices", std::move(slices)},
              {"counts", told_.counts},
              {"volume", told_.volume},
              {"unit", setup_.unit},

@@ -65,7 +65,9 @@ struct CaptureView {
 class Capture {
  public:
   struct Setup {
-    Options options = {};  ///< threads is ignored: one thread works
+    std::string kind = "capture";  ///< what viewers are told that it is: or a `session`
+    std::string name = {};         ///< of its file
+    Options options = {};          ///< threads is ignored: one thread works
     std::string unit = "mm";
     double metres_per_unit = 0.001;
     /// Steps that one edit may take (cdt/effort.h); beyond, it is rejected and nothing has changed.

@@ -12,6 +12,7 @@
 #include "app/exit_code.h"
 #include "cdt/point.h"
 #include "fields/field.h"
+#include "io/meshes/part.h"
 #include "io/planar/svg.h"
 #include "io/stack.h"
 #include "overlay/coverage.h"
@@ -34,8 +35,11 @@ struct ReconstructCommand {
   io::ReadOptions read = {.unlabelled = io::Unlabelled::label_by_file};
   std::vector<std::string> only;  ///< labels, see LabelChoice
   std::vector<std::string> except;
-  std::optional<std::filesystem::path> volumes;  ///< file for the table of volumes
-  bool strict = false;                           ///< a label that cannot be made is a failure
+  io::Compression compression = io::Compression::none;  ///< of glTF
+  bool with_contours = false;                           ///< lines in glTF
+  std::vector<std::string> hidden;                      ///< labels, see LabelChoice; in glTF
+  std::optional<std::filesystem::path> volumes;         ///< file for the table of volumes
+  bool strict = false;  ///< a label that cannot be made is a failure
   bool json = false;
   bool slabs = false;  ///< in the report, too
   bool quiet = false;

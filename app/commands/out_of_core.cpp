@@ -138,7 +138,12 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
   const std::vector<std::string> names =
       LabelChoice(command.only, command.except).chosen(overview.labels());
   const bool is_labelled = names.size() > 1 || !names[0].empty();
-  io::PlyPieces output(command.outputs[0], names);
+  std::vector<std::optional<Colour>> colours;
+  for (const std::string& name : names) {
+    const StackLabel* const said = stack.about().find_label(name);
+    colours.push_back(said != nullptr ? said->colour : std::nullopt);
+  }
+  io::PlyPieces output(command.outputs[0], names, colours);
   Stack about = stack.about();
   if (command.options.fair) about.slices.clear();  // points have moved from places in the file
   WorldSink in_world(about, output);

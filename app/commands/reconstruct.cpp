@@ -6,6 +6,8 @@
 #include <iostream>
 #include <list>
 #include <map>
+#include <set>
+#include <span>
 #include <utility>
 
 #include "app/commands/commands.h"
@@ -13,15 +15,19 @@
 #include "app/commands/label_files.h"
 #include "app/commands/labels.h"
 #include "app/commands/out_of_core.h"
+#include "app/commands/parts.h"
 #include "app/commands/place_of.h"
 #include "app/commands/reconstruct_report.h"
 #include "app/commands/take_over.h"
 #include "app/commands/volume_table.h"
+#include "app/commands/written.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
+#include "io/bytes/text.h"
+#include "io/gltf/gltf.h"
 #include "io/stack.h"
 #include "io/stacks/links_json.h"
 #include "io/surfaces.h"
@@ -89,6 +95,7 @@ class Follower {
 
 /// Finds out early what would make the work useless.
 void check_outputs(const ReconstructCommand& command) {
+  check_gltf_options(command);
   forbid_overwriting(command.inputs, command.outputs);
   if (command.links) forbid_overwriting(std::array{*command.links}, command.outputs);
   for (const path& output : command.outputs)
@@ -187,29 +194,47 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   if (command.options.smooth) options.settings["smooth"] = "true";
   for (const auto& [setting, length] : lengths(command.options))
     options.settings[setting] = exact(length);
+  options.compression = command.compression;
   return options;
 }
 
-void write_all(const ReconstructCommand& command, const Stack& stack,
-               const std::list<Result>& results) {
+std::vector<io::Part> parts_of(const ReconstructCommand& command, const Stack& stack,
+                               const std::list<Result>& results) {
+  std::vector<std::string> labels;
+  for (const Result& result : results) labels.push_back(result.report.label);
+  const std::set<std::string> hidden = hidden_labels(command, labels);
   std::vector<io::Part> parts;
   for (const Result& result : results) {
-    const StackLabel* const label = stack.find_label(result.report.label);
-    parts.push_back({result.report.label, &result.made.surface,
-                     label != nullptr ? label->colour : std::nullopt});
+    io::Part& part = parts.emplace_back(part_of(command, stack, result.report.label));
+    part.surface = &result.made.surface;
+    part.slices = result.report.input.slices;
+    part.is_hidden = hidden.contains(part.label);
   }
+  return parts;
+}
+
+/// How far positions are moved, where they are.
+void say_compression(const ReconstructCommand& command, std::span<const io::Part> parts,
+                     Terminal& terminal) {
+  if (command.compression == io::Compression::none || command.quiet) return;
+  terminal.say("positions in glTF are rounded by at most " +
+               io::short_number(io::quantisation_error(parts)) + ' ' + command.unit);
+}
+
+void write_all(const ReconstructCommand& command, const std::vector<io::Part>& parts,
+               Terminal& terminal) {
   std::vector<std::string> labels;
   for (const io::Part& part : parts) labels.push_back(part.label);
   for (const path& output : command.outputs) {
     if (!is_per_label(output)) {
       if (is_interrupted()) throw Cancelled();
-      io::write(output, parts, write_options(command));
+      tell(output, io::write(output, parts, write_options(command)), terminal);
       continue;
     }
     const std::vector<path> files = label_files(output, labels);
     for (std::size_t i = 0; i < files.size(); ++i) {
       if (is_interrupted()) throw Cancelled();
-      io::write(files[i], {&parts[i], 1}, write_options(command));
+      tell(files[i], io::write(files[i], {&parts[i], 1}, write_options(command)), terminal);
     }
   }
 }
@@ -260,7 +285,9 @@ void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& repo
   options.reports_slabs = command.json && command.slabs;
   std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
   stopwatch.lap();
-  write_all(command, stack, results);
+  const std::vector<io::Part> parts = parts_of(command, stack, results);
+  write_all(command, parts, terminal);
+  say_compression(command, parts, terminal);
   report.seconds["write"] = stopwatch.lap();
   for (Result& result : results) {
     for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;

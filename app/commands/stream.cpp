@@ -22,6 +22,7 @@
 #include "app/commands/commands.h"
 #include "app/commands/labels.h"
 #include "app/commands/settings.h"
+#include "app/commands/written.h"
 #include "app/interrupt.h"
 #include "app/overwriting.h"
 #include "app/place.h"
@@ -151,11 +152,18 @@ class Stream {
  private:
   [[nodiscard]] Capture::Setup setup() {
     Capture::Setup setup = setup_of(command_);
+    setup.name = name();
     if (command_.replay)
       setup.observe = [this](const NetChange& change, const CaptureView& view) {
         recorder_.add(change, view);
       };
     return setup;
+  }
+
+  /// Of the file that stands for it; empty if there is none.
+  [[nodiscard]] std::string name() const {
+    if (command_.session) return command_.session->filename().string();
+    return is_file(command_.input) ? command_.input->filename().string() : "";
   }
 
   void serve() {
@@ -306,7 +314,7 @@ class Stream {
     for (const path& output : command_.outputs)
       attempts.make([&] {
         check_labels_fit(surfaces.parts().size(), output);
-        io::write(output, surfaces.parts(), options);
+        tell(output, io::write(output, surfaces.parts(), options), terminal_);
       });
     attempts.check();
   }

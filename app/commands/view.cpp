@@ -34,7 +34,10 @@ class SessionView {
     if (command.unit != begun.unit) begun.given.insert("unit");
     begun.unit = command.unit;
     take_over(io::Session(command.file, io::Session::Access::read).settings(), begun);
-    return app::setup_of(begun);
+    Capture::Setup setup = app::setup_of(begun);
+    setup.kind = "session";
+    setup.name = command.file.filename().string();
+    return setup;
   }
 
   Feed feed_;

@@ -76,6 +76,28 @@ std::string footer() {
          "Results go to stdout, words to stderr. NO_COLOR is respected.";
 }
 
+void add_gltf_options(CLI::App& sub, ReconstructCommand& command) {
+  begin_group(sub, "glTF");
+  sub.add_option_function<std::string>(
+         "--compress",
+         [&command](const std::string& how) {
+           command.compression =
+               how == "quantize" ? io::Compression::quantize : io::Compression::meshopt;
+         },
+         "Smaller files, not for every program (Blender reads neither): positions of 16 bits, "
+         "normals of 8 (quantize), and these packed by meshoptimizer (meshopt). Rounding may make "
+         "a surface cross itself: loft check tells")
+      ->type_name("HOW")
+      ->check(CLI::IsMember({"quantize", "meshopt"}));
+  sub.add_flag("--with-contours", command.with_contours,
+               "The contours, too, as lines beside each label");
+  sub.add_option("--hide", command.hidden,
+                 "Labels of that name, or like that pattern, start hidden, in viewers that know "
+                 "KHR_node_visibility; may be repeated")
+      ->type_name("LABEL")
+      ->allow_extra_args(false);
+}
+
 /// Adds `loft reconstruct`; the command is ready when the line has been parsed.
 CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
@@ -118,6 +140,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
                   "\"to\": [slice, contour], \"link\": true or false} each")
       ->type_name("FILE");
   add_triangle_options(*sub, command.options);
+  add_gltf_options(*sub, command);
   begin_group(*sub, "Time and memory");
   sub->add_option("--threads", command.options.threads,
                   "Threads that work at the same time; 0 (default): as many as the machine has")
@@ -141,6 +164,8 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       "    loft reconstruct plan.dcm -o '{label}.stl' --except 'PTV*' --cap extend --csv v.csv\n"
       "  A segmentation: all labels in their colours, rounded between the slices\n"
       "    loft reconstruct labels.nii.gz -o labels.glb --smooth\n"
+      "  The same for a page on the web, its background not shown at first\n"
+      "    loft reconstruct labels.nii.gz -o labels.glb --smooth --compress meshopt --hide body\n"
       "  Traced sections, in micrometres\n"
       "    loft reconstruct dendrite.jser -o dendrite.glb --only 'd0*' --unit um\n"
       "  The layers of a part, for printing or simulation\n"

@@ -77,7 +77,8 @@ class Server::Routes {
   }
 
   [[nodiscard]] std::string methods(const std::string& path) const {
-    static const std::regex known(R"(/|/slices|/events|/status|/surface\..*|/slabs/.*)");
+    static const std::regex known(
+        R"(/|/slices|/slabs|/events|/status|/labels|/surface\..*|/slabs/.*)");
     if (capture_ != nullptr && path == "/slices") return "GET, HEAD, POST";
     return std::regex_match(path, known) ? "GET, HEAD" : "";
   }
@@ -90,12 +91,17 @@ class Server::Routes {
                        const httplib::ContentReader& read) { post(request, response, read); });
     http.Get("/slices",
              [this](const Request& request, Response& response) { slices(request, response); });
+    http.Get("/slabs",
+             [this](const Request& request, Response& response) { slabs(request, response); });
     http.Get(R"(/slabs/(\d{1,9})-(\d{1,9})\.glb)",
              [this](const Request& request, Response& response) { slab(request, response); });
     http.Get(R"(/surface(\.[a-z]{3,4}))",
              [this](const Request& request, Response& response) { surface(request, response); });
     http.Get("/events", [this](const Request& request, Response& response) {
       site_.stream(request, response, feed_, [this] { return shown_.reset_event(); });
+    });
+    http.Get("/labels", [this](const Request&, Response& response) {
+      answer(response, 200, to_json(shown_.labels()));
     });
     http.Get("/status", [this](const Request&, Response& response) {
       Json status = shown_.status();
@@ -213,6 +219,14 @@ class Server::Routes {
     const auto glb = shown_.slab(part, id);
     if (!glb) return refuse(response, 404, "there is no such slab; it is gone, or never was");
     response.set_content(*glb, "model/gltf-binary");
+  }
+
+  void slabs(const Request& request, Response& response) {
+    const auto ranges = parse_slab_ranges(request.get_param_value("ids"));
+    if (!ranges) return refuse(response, 400, "ids are like 0-17,1-3..65");
+    const std::string glbs = shown_.slabs(*ranges);
+    if (glbs.empty()) return refuse(response, 404, "there are no such slabs; they are gone");
+    response.set_content(glbs, "model/gltf-binary");
   }
 
   void surface(const Request& request, Response& response) {

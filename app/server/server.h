@@ -26,10 +26,15 @@ namespace loft::app {
 ///     GET /surface.glb        the surface as it is; also .gltf .ply .stl .obj .off; of a file that
 ///                             is only shown, in its own format
 ///     GET /slabs/{id}.glb     a slab (io/gltf/slab_glb.h); 404 when it is gone
+///     GET /slabs?ids=...      many slabs (slab_ranges.h) as GLBs one behind the other, labels and
+///                             ranges of heights together (io::bundle_glb), as many as fit into an
+///                             answer; 404 when all are gone
 ///     GET /slices             all heights; ?z=1.25 the slice at that height, as a line
 ///     GET /events             server-sent events: `reset` with all that there is, then `change`
 ///                             for each edit; a reader that comes back with Last-Event-ID, or
 ///                             ?after= with the last one's id, gets what it has missed
+///     GET /labels             of each label: colour, slices, volume, area, whether it is a skin
+///                             (shown_label.h)
 ///     GET /status             counts, latencies, memory
 ///     GET /                   the viewer
 ///

@@ -1,24 +1,108 @@
 // SPDX-License-Identifier: MIT
 #include "app/server/shown_capture.h"
 
+#include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "app/capture/surfaces.h"
-#include "io/gltf/slab_glb.h"
+#include "io/meshes/skin.h"
 #include "io/surfaces.h"
 
 namespace loft::app {
 
+namespace {
+
+/// So many faces make a GLB, and what the last slab has beyond.
+constexpr std::size_t most_bundled_faces = 32'768;
+
+}  // namespace
+
 std::optional<std::string> ShownCapture::slab(std::size_t part, std::uint32_t id) {
   const auto view = capture_.view();
   if (part >= view->parts.size()) return {};
-  const auto& [label, snapshot] = view->parts[part];
+  const Snapshot& snapshot = view->parts[part].snapshot;
   const std::size_t i = snapshot.find(id);
   if (i == snapshot.slab_count()) return {};
+  io::SlabView shown = view_of(*view, part);
+  shown.edit = capture_.birth(part, id);
+  return io::slab_glb(snapshot, i, shown);
+}
+
+io::SlabView ShownCapture::view_of(const CaptureView& view, std::size_t part) const {
   const Capture::Setup& setup = capture_.setup();
-  return io::slab_glb(snapshot, i,
-                      {label, capture_.birth(part, id), setup.options.cap == Cap::open,
-                       view->origin, setup.metres_per_unit});
+  return {.label = view.parts[part].label,
+          .is_double_sided = setup.options.cap == Cap::open,
+          .origin = view.origin,
+          .metres_per_unit = setup.metres_per_unit};
+}
+
+std::string ShownCapture::slabs(std::span<const SlabRange> ranges) {
+  const auto view = capture_.view();
+  std::string glbs;
+  for (const SlabRange& range : ranges) {
+    if (range.part < view->parts.size()) append(glbs, *view, range);
+    if (glbs.size() >= most_slab_bytes) break;
+  }
+  return glbs;
+}
+
+/// Those that lie one upon the other are one GLB, unless they have too many faces for that.
+void ShownCapture::append(std::string& glbs, const CaptureView& view,
+                          const SlabRange& range) const {
+  const Snapshot& snapshot = view.parts[range.part].snapshot;
+  std::vector<io::BundledSlab> run;
+  std::size_t faces = 0;
+  const auto finish_run = [&] {
+    if (!run.empty()) glbs += io::bundle_glb(snapshot, run, view_of(view, range.part));
+    run.clear();
+    faces = 0;
+  };
+  for (std::size_t i = 0; i < snapshot.slab_count() && glbs.size() < most_slab_bytes; ++i) {
+    const std::uint32_t id = snapshot.slab(i).id;
+    const bool is_wanted = id >= range.first && id <= range.last;
+    if (is_wanted) {
+      run.push_back({i, slab_name({range.part, id}), capture_.birth(range.part, id)});
+      faces += snapshot.tile_count(i);
+    }
+    if (!is_wanted || faces >= most_bundled_faces) finish_run();
+  }
+  if (glbs.size() < most_slab_bytes) finish_run();
+}
+
+std::vector<ShownLabel> ShownCapture::labels() {
+  const auto view = capture_.view();
+  const std::lock_guard lock(measured_mutex_);
+  MeasuredSlabs now;
+  std::vector<ShownLabel> labels;
+  for (std::size_t part = 0; part < view->parts.size(); ++part)
+    labels.push_back(measure(*view, part, measured_, now));
+  measured_ = std::move(now);
+  return labels;
+}
+
+ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
+                                 const MeasuredSlabs& before, MeasuredSlabs& now) {
+  const auto& [label, snapshot] = view.parts[part];
+  ShownLabel about{.label = label, .is_skin = io::is_skin(label), .volume = snapshot.volume()};
+  for (std::size_t i = 0; i < snapshot.slab_count(); ++i) {
+    const SlabKey key{part, snapshot.slab(i).id};
+    const auto known = before.find(key);
+    Measured slab;
+    if (known != before.end()) {
+      slab = known->second;
+    } else {
+      const Mesh mesh = snapshot.patch(i, i + 1).mesh;
+      slab = {area(mesh), mesh.faces.size()};
+    }
+    about.area += slab.area;
+    about.faces += slab.faces;
+    now.emplace(key, slab);
+  }
+  const auto has_label = [&](const Contour& contour) { return contour.label == label; };
+  for (std::size_t i = 0; i < snapshot.slice_count(); ++i)
+    if (std::ranges::any_of(snapshot.slice(i).contours, has_label)) ++about.slices;
+  return about;
 }
 
 std::optional<std::string> ShownCapture::surface(std::string_view extension) {

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "app/capture/net_change.h"
 #include "io/bytes/file.h"
 #include "io/gltf/slab_glb.h"
 #include "io/meshes.h"
+#include "io/meshes/skin.h"
 #include "io/version.h"
 
 namespace loft::app {
@@ -15,6 +17,9 @@ namespace {
 
 /// So many faces are sent at once.
 constexpr std::size_t chunk_size = 65'536;
+
+/// So many chunks go into one GLB: all faces are looked at for each of those.
+constexpr std::size_t most_bundled = 4;
 
 /// Flat faces across z are taken for the caps of a stack: the edge around them looks sharp.
 FaceKind kind_of(const Corners& corners) {
@@ -37,15 +42,21 @@ ShownMesh::ShownMesh(std::filesystem::path file, std::string unit)
       unit_(std::move(unit)),
       metres_per_unit_(io::metres_per_unit(unit_).value_or(1)) {
   for (io::LabelledMesh& mesh : io::read_meshes(file_)) {
-    add(sum_, measure(mesh.mesh));
-    parts_.push_back(cut(std::move(mesh)));
+    const Measures measures = measure(mesh.mesh);
+    add(sum_, measures);
+    ShownLabel about{.label = mesh.label,
+                     .is_skin = io::is_skin(mesh.label),
+                     .volume = measures.volume,
+                     .area = measures.area,
+                     .faces = measures.faces};
+    parts_.push_back(cut(std::move(mesh.mesh), std::move(about)));
   }
   const Mesh& first = parts_.front().patch.mesh;
   origin_ = first.points[first.faces.front()[0]];
 }
 
-ShownMesh::Part ShownMesh::cut(io::LabelledMesh mesh) {
-  Part part{std::move(mesh.label), {std::move(mesh.mesh), {}, {}, {}}, {}};
+ShownMesh::Part ShownMesh::cut(Mesh mesh, ShownLabel about) {
+  Part part{{std::move(mesh), {}, {}, {}}, {}, std::move(about)};
   Patch& patch = part.patch;
   for (std::size_t f = 0; f < patch.mesh.faces.size(); ++f) {
     const auto& [a, b, c] = patch.mesh.faces[f];
@@ -66,11 +77,14 @@ std::pair<std::string, std::uint64_t> ShownMesh::reset_event() const {
   Json slabs = Json::array();
   for (std::size_t i = 0; i < parts_.size(); ++i)
     for (const SlabInfo& chunk : parts_[i].chunks)
-      slabs.push_back({{"id", std::to_string(i) + '-' + std::to_string(chunk.id)},
+      slabs.push_back({{"id", slab_name({i, chunk.id})},
                        {"low", chunk.low},
                        {"high", chunk.high},
-                       {"label", parts_[i].label}});
-  const Json event{{"slabs", std::move(slabs)},
+                       {"label", parts_[i].about.label}});
+  const Json event{{"kind", "file"},
+                   {"name", file_.filename().string()},
+                   {"is_patient", false},
+                   {"slabs", std::move(slabs)},
                    {"slices", Json::array()},
                    {"counts", counts()},
                    {"volume", sum_.volume},
@@ -87,16 +101,48 @@ Json ShownMesh::status() const {
   return status;
 }
 
+std::vector<ShownLabel> ShownMesh::labels() {
+  std::vector<ShownLabel> labels;
+  for (const Part& part : parts_) labels.push_back(part.about);
+  return labels;
+}
+
 Json ShownMesh::counts() const { return {{"vertices", sum_.vertices}, {"faces", sum_.faces}}; }
 
 std::optional<std::string> ShownMesh::slab(std::size_t part, std::uint32_t id) {
   if (part >= parts_.size() || id >= parts_[part].chunks.size()) return {};
-  const auto& [label, patch, chunks] = parts_[part];
-  return io::slab_glb(patch, chunks[id],
-                      {.label = label,
-                       .is_double_sided = true,
-                       .origin = origin_,
-                       .metres_per_unit = metres_per_unit_});
+  const Part& shown = parts_[part];
+  return io::slab_glb(shown.patch, shown.chunks[id], view_of(shown));
+}
+
+io::SlabView ShownMesh::view_of(const Part& part) const {
+  return {.label = part.about.label,
+          .is_double_sided = true,
+          .origin = origin_,
+          .metres_per_unit = metres_per_unit_};
+}
+
+std::string ShownMesh::slabs(std::span<const SlabRange> ranges) {
+  std::string glbs;
+  for (const SlabRange& range : ranges) {
+    if (range.part < parts_.size()) append(glbs, range);
+    if (glbs.size() >= most_slab_bytes) break;
+  }
+  return glbs;
+}
+
+void ShownMesh::append(std::string& glbs, const SlabRange& range) const {
+  const Part& part = parts_[range.part];
+  const std::size_t end = std::min<std::size_t>(std::size_t{range.last} + 1, part.chunks.size());
+  for (std::size_t begin = range.first; begin < end && glbs.size() < most_slab_bytes;) {
+    const std::size_t count = std::min(end - begin, most_bundled);
+    std::vector<std::string> ids;
+    for (std::size_t i = begin; i < begin + count; ++i)
+      ids.push_back(slab_name({range.part, static_cast<std::uint32_t>(i)}));
+    glbs += io::bundle_glb(part.patch, std::span(part.chunks).subspan(begin, count), ids,
+                           view_of(part));
+    begin += count;
+  }
 }
 
 std::optional<std::string> ShownMesh::surface(std::string_view extension) {

@@ -4,9 +4,10 @@
 #include <filesystem>
 
 #include "app/server/shown.h"
-#include "io/meshes/labelled_mesh.h"
+#include "io/gltf/slab_glb.h"
 #include "io/unit.h"
 #include "mesh/measure.h"
+#include "mesh/mesh.h"
 #include "reconstruct/live/snapshot.h"
 
 namespace loft::app {
@@ -20,7 +21,9 @@ class ShownMesh : public Shown {
 
   [[nodiscard]] std::pair<std::string, std::uint64_t> reset_event() const override;
   [[nodiscard]] Json status() const override;
+  [[nodiscard]] std::vector<ShownLabel> labels() override;
   [[nodiscard]] std::optional<std::string> slab(std::size_t part, std::uint32_t id) override;
+  [[nodiscard]] std::string slabs(std::span<const SlabRange> ranges) override;
   /// The file itself.
   [[nodiscard]] std::optional<std::string> surface(std::string_view extension) override;
   [[nodiscard]] std::optional<Slice> slice(double) const override { return {}; }
@@ -28,12 +31,14 @@ class ShownMesh : public Shown {
 
  private:
   struct Part {
-    std::string label;
     Patch patch;                   // its slabs are the chunks
     std::vector<SlabInfo> chunks;  // with their lowest and highest place
+    ShownLabel about;
   };
-  [[nodiscard]] static Part cut(io::LabelledMesh mesh);
+  [[nodiscard]] static Part cut(Mesh mesh, ShownLabel about);
   [[nodiscard]] Json counts() const;
+  [[nodiscard]] io::SlabView view_of(const Part& part) const;
+  void append(std::string& glbs, const SlabRange& range) const;
 
   std::filesystem::path file_;
   std::string unit_;

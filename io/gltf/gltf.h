@@ -18,21 +18,36 @@ namespace loft::io {
 /// One node and mesh a part, named by its label (`surface` without one); +Y up, so that the slices'
 /// z points up: (x, y, z) becomes (x, z, -y); metres. POSITION is `float` relative to the centre of
 /// all parts, which goes into the nodes' translation in `double`: coordinates far from zero
-/// survive. NORMAL as shade() gives it. Not metallic, a colour a part, double-sided where it is
-/// open. `asset.extras` holds `metres_per_unit`, `up`, and the sources and settings of the options.
-/// Throws Error where the surfaces are too large for `float` coordinates or 4 GiB.
+/// survive. NORMAL as shade() gives it. Not metallic, a colour a part, in linear light,
+/// double-sided where it is open; a skin (skin.h) that is not alone is transparent. `asset.extras`
+/// holds `metres_per_unit`, `up`, and the sources and settings of the options; a node's those that
+/// node_extras.h lists. Parts that are hidden have `KHR_node_visibility` (used, not required).
+/// Contours make a second node, `LABEL contours`, of lines.
+///
+/// With WriteOptions::compression, positions are rounded to one grid for all parts, of 16 bits an
+/// axis, so that what was at one place still is (see quantisation_error()); a node's scale is its
+/// step. That may turn faces over or let thin parts cross. Required then: `KHR_mesh_quantization`,
+/// and for meshopt `EXT_meshopt_compression`, without a fallback.
+/// Throws Error where the surfaces are too large for `float` coordinates or 4 GiB, and for meshopt
+/// in a build without it.
 void write_glb(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
 
 /// The same as glTF JSON, in one file: the buffer is embedded (base64).
 void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
 
+/// The farthest that WriteOptions::compression moves a vertex, in the unit of the parts. Cost:
+/// O(n).
+[[nodiscard]] double quantisation_error(std::span<const Part> parts);
+
 /// Reads the triangles of a glTF or GLB file, node transforms applied, turned back to z up:
 /// (x, y, z) becomes (x, -z, y). Vertices that were doubled at sharp edges become one again (see
 /// sew_seams()). From files that loft wrote come one mesh a node, in the unit of the stack; from
 /// others one mesh in metres, since there a node need not be a solid.
-/// Throws FileError, and InputError that names the file. Not read: sparse, compressed or quantised
-/// positions (an error says so), points and lines (left out). Bounded, as gltf_load.h says: what is
-/// nested, which files are opened (those of buffers, in the same folder), what repeated meshes
+/// Quantised positions (KHR_mesh_quantization) and packed ones (EXT_meshopt_compression, where the
+/// build has meshoptimizer) are read, too.
+/// Throws FileError, and InputError that names the file. Not read: sparse positions, those that
+/// Draco packed (an error says so), points and lines (left out). Bounded, as gltf_load.h says: what
+/// is nested, which files are opened (those of buffers, in the same folder), what repeated meshes
 /// make.
 [[nodiscard]] std::vector<LabelledMesh> read_gltf(const std::filesystem::path& path);
 

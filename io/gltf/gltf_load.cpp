@@ -16,8 +16,9 @@
 #include <vector>
 
 #include "io/bytes/json_reader.h"
-#include "io/bytes/little_endian.h"
 #include "io/bytes/text.h"
+#include "io/gltf/glb_chunks.h"
+#include "io/gltf/packed.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -151,45 +152,59 @@ class Filter {
     json.begin_object();
     while (const auto key = json.next_key()) {
       const bool is_kept = std::ranges::find(kept, *key) != kept.end();
-      if (*key == "buffers") look_at_buffers(json);
-      const std::size_t begin = json.place();
-      json.skip();
+      const std::string value = *key == "buffers" ? buffers(json) : std::string(json.text());
       if (!is_kept) continue;
       if (result.size() > 1) result += ',';
       append_json_string(result, *key);
       result += ':';
-      result += text_.substr(begin, json.place() - begin);
+      result += value;
     }
     json.end();
     return result + '}';
   }
 
-  /// From a copy of the reader, which stays where it is.
-  void look_at_buffers(JsonReader json) {
+  /// The list, looked at. A buffer that is only there for who cannot unpack others has no bytes.
+  std::string buffers(JsonReader& json) {
+    constexpr const char* no_bytes =
+        R"({"byteLength":1,"uri":"data:application/octet-stream;base64,AA=="})";
     if (json.peek() != JsonKind::list) fail("not glTF: \"buffers\": " + reject(json, "a list"));
     json.begin_list();
     std::uint64_t total = 0;
     std::size_t inside = 0;
+    std::string result = "[";
     for (std::size_t i = 0; json.next_item(); ++i) {
       if (json.peek() != JsonKind::object) fail("not glTF: " + reject(json, "a buffer"));
-      const std::optional<std::string> uri = uri_of(json);
-      if (!uri && ++inside > 1) fail("more than one buffer without \"uri\"");
+      const std::string_view text = json.text();
+      const auto [uri, is_fallback] = members_of(text);
+      if (!uri && !is_fallback && ++inside > 1) fail("more than one buffer without \"uri\"");
       if (uri && !uri->starts_with("data:")) total += size_of(*uri, i);
       if (total > most_bytes) fail("its buffers are larger than 4 GiB");
+      if (i > 0) result += ',';
+      result += is_fallback && !uri ? no_bytes : text;
     }
+    return result + ']';
   }
 
-  static std::optional<std::string> uri_of(JsonReader& json) {
+  struct BufferMembers {
     std::optional<std::string> uri;
+    bool is_fallback = false;
+  };
+
+  static BufferMembers members_of(std::string_view buffer) {
+    BufferMembers members;
+    JsonReader json(buffer);
     json.begin_object();
     while (const auto key = json.next_key()) {
       if (*key == "uri" && json.peek() == JsonKind::string) {
-        uri = json.string();
+        members.uri = json.string();
+      } else if (*key == "extensions") {
+        members.is_fallback =
+            compact_json(json.text()).find(R"("fallback":true)") != std::string::npos;
       } else {
         json.skip();
       }
     }
-    return uri;
+    return members;
   }
 
   [[nodiscard]] std::uint64_t size_of(const std::string& uri, std::size_t buffer) const {
@@ -207,33 +222,6 @@ class Filter {
   std::string_view name_;
 };
 
-// --- GLB: a header of three numbers, then chunks with their sizes ---
-
-constexpr std::size_t glb_header = 12;
-constexpr std::size_t chunk_header = 8;
-
-std::string_view json_chunk(std::string_view glb, std::string_view name) {
-  constexpr std::uint32_t json_type = 0x4e4f534a;
-  if (glb.size() >= glb_header + chunk_header) {
-    const std::size_t size = get<std::uint32_t>(glb.data() + glb_header);
-    const bool is_json = get<std::uint32_t>(glb.data() + glb_header + 4) == json_type;
-    if (is_json && size <= glb.size() - glb_header - chunk_header)
-      return glb.substr(glb_header + chunk_header, size);
-  }
-  throw InputError(std::string(name) + ": not glTF: cut off");
-}
-
-/// The same file with other JSON.
-std::string with_json(std::string_view glb, std::size_t old_size, std::string json) {
-  json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::string result(glb.substr(0, glb_header + chunk_header));
-  result += json;
-  result += glb.substr(glb_header + chunk_header + old_size);
-  put(result.data() + 8, static_cast<std::uint32_t>(result.size()));
-  put(result.data() + glb_header, static_cast<std::uint32_t>(json.size()));
-  return result;
-}
-
 std::string first_line(const std::string& text) { return text.substr(0, text.find('\n')); }
 
 }  // namespace
@@ -242,9 +230,10 @@ tinygltf::Model load_gltf(std::string_view content, const std::filesystem::path&
                           std::string_view name) {
   if (content.size() > most_bytes) throw InputError(std::string(name) + ": larger than 4 GiB");
   const bool is_binary = content.starts_with("glTF");
-  const std::string_view json = is_binary ? json_chunk(content, name) : content;
-  std::string text = Filter(without_mark(json), folder, name).run();
-  if (is_binary) text = with_json(content, json.size(), std::move(text));
+  const std::optional<std::string_view> json = is_binary ? json_chunk(content) : content;
+  if (!json) throw InputError(std::string(name) + ": not glTF: cut off");
+  std::string text = Filter(without_mark(*json), folder, name).run();
+  if (is_binary) text = with_json(content, std::move(text));
   tinygltf::TinyGLTF loader;
   loader.SetImageLoader(ignore_image, nullptr);
   std::filesystem::path home = folder;
@@ -269,6 +258,7 @@ tinygltf::Model load_gltf(std::string_view content, const std::filesystem::path&
   if (!is_loaded)
     throw InputError(std::string(name) +
                      ": not glTF: " + (error.empty() ? "cut off" : first_line(error)));
+  unpack_views(model, name);
   return model;
 }
 

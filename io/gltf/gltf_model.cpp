@@ -7,22 +7,13 @@
 #include <span>
 #include <utility>
 
-#include "io/gltf/label_colour.h"
+#include "io/meshes/label_colour.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
 
 namespace {
-
-int add_vectors(Buffer& buffer, std::span<const Vec3> vectors) {
-  buffer.begin(vectors.size() * 3 * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER,
-               TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, vectors.size());
-  for (const Vec3& vector : vectors) {
-    for (const double coordinate : vector) buffer.add(static_cast<float>(coordinate));
-  }
-  return buffer.last_accessor();
-}
 
 /// The smallest and largest coordinates, as `float` holds them.
 void set_bounds(tinygltf::Accessor& accessor, std::span<const Vec3> points) {
@@ -38,17 +29,43 @@ void set_bounds(tinygltf::Accessor& accessor, std::span<const Vec3> points) {
 }
 
 template <class Index>
-int add_indices(Buffer& buffer, const ShadedMesh& mesh, int component_type) {
-  const std::size_t count = 3 * mesh.faces.size();
-  buffer.begin(count * sizeof(Index), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, component_type,
-               TINYGLTF_TYPE_SCALAR, count);
-  for (const auto& face : mesh.faces) {
-    for (const std::uint32_t corner : face) buffer.add(static_cast<Index>(corner));
-  }
+int add_indices_as(Buffer& buffer, std::span<const std::uint32_t> indices, int component_type) {
+  buffer.begin(indices.size() * sizeof(Index), TINYGLTF_TARGET_ELEMENT_ARRAY_BUFFER, component_type,
+               TINYGLTF_TYPE_SCALAR, indices.size());
+  for (const std::uint32_t index : indices) buffer.add(static_cast<Index>(index));
   return buffer.last_accessor();
 }
 
 }  // namespace
+
+int add_vectors(Buffer& buffer, std::span<const Vec3> vectors) {
+  buffer.begin(vectors.size() * 3 * sizeof(float), TINYGLTF_TARGET_ARRAY_BUFFER,
+               TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC3, vectors.size());
+  for (const Vec3& vector : vectors) {
+    for (const double coordinate : vector) buffer.add(static_cast<float>(coordinate));
+  }
+  return buffer.last_accessor();
+}
+
+int add_positions(Buffer& buffer, tinygltf::Model& model, std::span<const Vec3> points) {
+  const int accessor = add_vectors(buffer, points);
+  set_bounds(model.accessors.back(), points);
+  return accessor;
+}
+
+int add_indices(Buffer& buffer, std::span<const std::uint32_t> indices, std::size_t vertex_count) {
+  // Of 16-bit indices the largest value is reserved.
+  return vertex_count <= 0xffff
+             ? add_indices_as<std::uint16_t>(buffer, indices,
+                                             TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
+             : add_indices_as<std::uint32_t>(buffer, indices, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+}
+
+std::span<const std::uint32_t> corners_of(const ShadedMesh& mesh) {
+  static_assert(sizeof(mesh.faces[0]) == 3 * sizeof(std::uint32_t));
+  if (mesh.faces.empty()) return {};
+  return {mesh.faces.front().data(), 3 * mesh.faces.size()};
+}
 
 tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffer,
                               tinygltf::Model& model) {
@@ -56,14 +73,9 @@ tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffe
   for (Vec3& normal : mesh.normals) normal = Frame::turned(normal);
   tinygltf::Primitive result;
   result.mode = TINYGLTF_MODE_TRIANGLES;
-  result.attributes["POSITION"] = add_vectors(buffer, mesh.points);
-  set_bounds(model.accessors.back(), mesh.points);
+  result.attributes["POSITION"] = add_positions(buffer, model, mesh.points);
   result.attributes["NORMAL"] = add_vectors(buffer, mesh.normals);
-  // Of 16-bit indices the largest value is reserved.
-  result.indices =
-      mesh.points.size() <= 0xffff
-          ? add_indices<std::uint16_t>(buffer, mesh, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT)
-          : add_indices<std::uint32_t>(buffer, mesh, TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT);
+  result.indices = add_indices(buffer, corners_of(mesh), mesh.points.size());
   return result;
 }
 
@@ -88,12 +100,12 @@ tinygltf::Model empty_model() {
   return model;
 }
 
-void write_model(std::ostream& out, const tinygltf::Model& model, bool binary) {
+void write_model(std::ostream& out, const tinygltf::Model& model, bool binary, bool on_lines) {
   constexpr std::size_t limit = 0xff00'0000;  // GLB counts its bytes in 32 bits
   if (!model.buffers.empty() && model.buffers[0].data.size() > limit)
     throw Error("too large for glTF: more than 4 GiB");
   tinygltf::TinyGLTF writer;
-  if (!writer.WriteGltfSceneToStream(&model, out, !binary, binary)) {
+  if (!writer.WriteGltfSceneToStream(&model, out, on_lines && !binary, binary)) {
     throw Error("tinygltf failed to write glTF");
   }
 }

@@ -5,8 +5,10 @@
 #include <tiny_gltf.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <ostream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -39,8 +41,9 @@ class Buffer {
   explicit Buffer(tinygltf::Model& model) : model_(model) { model_.buffers.resize(1); }
 
   /// A view of `size` bytes for the numbers that are put next, and the accessor that reads them.
-  /// `target`: 0 for what is no vertex and no index.
-  void begin(std::size_t size, int target, int component_type, int type, std::size_t count) {
+  /// `target`: 0 for what is no vertex and no index; `stride`: 0 where no bytes are between them.
+  void begin(std::size_t size, int target, int component_type, int type, std::size_t count,
+             std::size_t stride = 0) {
     std::vector<unsigned char>& data = model_.buffers[0].data;
     data.resize((data.size() + 3) / 4 * 4);
     tinygltf::BufferView view;
@@ -48,6 +51,7 @@ class Buffer {
     view.byteOffset = data.size();
     view.byteLength = size;
     view.target = target;
+    view.byteStride = stride;
     tinygltf::Accessor accessor;
     accessor.bufferView = static_cast<int>(model_.bufferViews.size());
     accessor.componentType = component_type;
@@ -71,6 +75,18 @@ class Buffer {
   char* place_ = nullptr;
 };
 
+/// Adds numbers to the buffer and the model's accessors, and returns the accessor.
+[[nodiscard]] int add_vectors(Buffer& buffer, std::span<const Vec3> vectors);
+/// With their bounds. Throws Error where they are too large for `float`.
+[[nodiscard]] int add_positions(Buffer& buffer, tinygltf::Model& model,
+                                std::span<const Vec3> points);
+/// In 16 bits where that is enough for so many vertices.
+[[nodiscard]] int add_indices(Buffer& buffer, std::span<const std::uint32_t> indices,
+                              std::size_t vertex_count);
+
+/// The corners of all faces, one behind the other.
+[[nodiscard]] std::span<const std::uint32_t> corners_of(const ShadedMesh& mesh);
+
 /// Adds a mesh to the buffer and the model's accessors. Throws Error where it is too large for
 /// `float`.
 [[nodiscard]] tinygltf::Primitive primitive(ShadedMesh mesh, const Frame& frame, Buffer& buffer,
@@ -83,7 +99,9 @@ class Buffer {
 /// An empty model with its version, the program's name and a scene.
 [[nodiscard]] tinygltf::Model empty_model();
 
-/// Throws Error where that fails, and where the buffer is larger than glTF can say.
-void write_model(std::ostream& out, const tinygltf::Model& model, bool binary);
+/// `on_lines`: JSON that is no GLB's has a line for each value. Throws Error where that fails, and
+/// where the buffer is larger than glTF can say.
+void write_model(std::ostream& out, const tinygltf::Model& model, bool binary,
+                 bool on_lines = true);
 
 }  // namespace loft::io

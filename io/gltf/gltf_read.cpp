@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: MIT
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <type_traits>
 #include <utility>
 
 #include "io/bytes/file.h"
@@ -55,7 +57,43 @@ struct Elements {
   std::size_t count = 0;
   std::size_t stride = 0;
   int component_type = 0;
+  bool is_normalized = false;
 };
+
+/// A number of an element; an integer stands for a share of its largest one where that is said
+/// (KHR_mesh_quantization).
+template <class Number>
+double number_at(const char* place, std::size_t i, bool is_normalized) {
+  const auto number = static_cast<double>(get<Number>(place + i * sizeof(Number)));
+  if constexpr (std::is_integral_v<Number>) {
+    constexpr auto most = static_cast<double>(std::numeric_limits<Number>::max());
+    if (is_normalized) return std::max(number / most, -1.0);
+  }
+  return number;
+}
+
+bool is_number(int component_type) {
+  constexpr std::array types{TINYGLTF_COMPONENT_TYPE_BYTE, TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE,
+                             TINYGLTF_COMPONENT_TYPE_SHORT, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT,
+                             TINYGLTF_COMPONENT_TYPE_FLOAT};
+  return std::ranges::find(types, component_type) != types.end();
+}
+
+/// Precondition: is_number().
+double coordinate(const Elements& elements, const char* place, std::size_t axis) {
+  switch (elements.component_type) {
+    case TINYGLTF_COMPONENT_TYPE_BYTE:
+      return number_at<std::int8_t>(place, axis, elements.is_normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+      return number_at<std::uint8_t>(place, axis, elements.is_normalized);
+    case TINYGLTF_COMPONENT_TYPE_SHORT:
+      return number_at<std::int16_t>(place, axis, elements.is_normalized);
+    case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+      return number_at<std::uint16_t>(place, axis, elements.is_normalized);
+    default:
+      return number_at<float>(place, axis, false);
+  }
+}
 
 class Reader {
  public:
@@ -131,7 +169,7 @@ class Reader {
     const auto found = primitive.attributes.find("POSITION");
     if (found == primitive.attributes.end()) fail("triangles without POSITION");
     const Elements positions = elements(found->second, TINYGLTF_TYPE_VEC3);
-    if (positions.component_type != TINYGLTF_COMPONENT_TYPE_FLOAT) fail("POSITION is not float");
+    if (!is_number(positions.component_type)) fail("POSITION has numbers of a wrong type");
 
     count_elements(primitive, positions.count);
     const std::vector<std::uint32_t> corners = read_indices(primitive, positions.count);
@@ -155,9 +193,7 @@ class Reader {
   void add_point(const Elements& positions, std::size_t i, const Affine& map) {
     const char* place = positions.first + i * positions.stride;
     Vec3 point{};
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      point[axis] = static_cast<double>(get<float>(place + axis * sizeof(float)));
-    }
+    for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = coordinate(positions, place, axis);
     const Vec3 placed = map(point);
     polygons_.mesh.points.push_back({placed[0] / metres_per_unit_, -placed[2] / metres_per_unit_,
                                      placed[1] / metres_per_unit_});
@@ -217,7 +253,7 @@ class Reader {
       fail("an accessor is missing or of a wrong type");
     if (accessor->sparse.isSparse) fail("sparse accessors cannot be read");
     const tinygltf::BufferView* view = at(model_.bufferViews, accessor->bufferView);
-    if (view == nullptr) fail("compressed or missing geometry cannot be read");
+    if (view == nullptr) fail("geometry that is missing, or packed by Draco, cannot be read");
     const tinygltf::Buffer* buffer = at(model_.buffers, view->buffer);
     const int component_size =
         tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType));
@@ -228,6 +264,7 @@ class Reader {
     result.count = accessor->count;
     result.stride = static_cast<std::size_t>(stride);
     result.component_type = accessor->componentType;
+    result.is_normalized = accessor->normalized;
     const auto size = static_cast<std::size_t>(component_size) *
                       (type == TINYGLTF_TYPE_VEC3 ? std::size_t{3} : std::size_t{1});
     const std::size_t available = available_bytes(*accessor, *view, *buffer);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "mesh/vec3.h"
 
@@ -125,6 +126,47 @@ class Shading {
   NormalSum elsewhere_;
 };
 
+/// Gives each slab vertices of its own.
+class Parting {
+ public:
+  explicit Parting(const ShadedMesh& together)
+      : together_(together), places_(together.points.size()) {}
+
+  /// The next slab.
+  void begin() {
+    begin_ = static_cast<std::uint32_t>(parted_.mesh.points.size());
+    parted_.vertices.push_back(0);
+    parted_.faces.push_back(0);
+  }
+  void add(const std::array<std::uint32_t, 3>& face) {
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t i = 0; i < 3; ++i) corners[i] = own(face[i]);
+    parted_.mesh.faces.push_back(corners);
+    ++parted_.faces.back();
+  }
+  [[nodiscard]] ShadedSlabs parted() && { return std::move(parted_); }
+
+ private:
+  [[nodiscard]] std::uint32_t own(std::uint32_t vertex) {
+    std::uint32_t& place = places_[vertex];
+    const bool is_known =
+        place >= begin_ && place < parted_.mesh.points.size() && origins_[place] == vertex;
+    if (is_known) return place;
+    place = static_cast<std::uint32_t>(parted_.mesh.points.size());
+    parted_.mesh.points.push_back(together_.points[vertex]);
+    parted_.mesh.normals.push_back(together_.normals[vertex]);
+    origins_.push_back(vertex);
+    ++parted_.vertices.back();
+    return place;
+  }
+
+  const ShadedMesh& together_;
+  ShadedSlabs parted_;
+  std::uint32_t begin_ = 0;             // of the slab's vertices
+  std::vector<std::uint32_t> places_;   // of each vertex, in the last slab that has it
+  std::vector<std::uint32_t> origins_;  // of each vertex that was made
+};
+
 }  // namespace
 
 ShadedMesh shade(const Surface& surface) {
@@ -138,6 +180,23 @@ ShadedMesh shade(const Patch& patch, std::uint32_t slab) {
   return Shading(patch.mesh)
       .run([&](std::size_t f) { return patch.kinds[f]; },
            [&](std::size_t f) { return patch.slabs[f] == slab; });
+}
+
+ShadedSlabs shade_apart(const Patch& patch, std::uint32_t first, std::uint32_t last) {
+  const auto is_wanted = [&](std::size_t f) {
+    return patch.slabs[f] >= first && patch.slabs[f] < last;
+  };
+  const ShadedMesh together =
+      Shading(patch.mesh).run([&](std::size_t f) { return patch.kinds[f]; }, is_wanted);
+  Parting parting(together);
+  std::size_t next = 0;  // of the faces in `together`
+  std::size_t f = 0;
+  for (std::uint32_t slab = first; slab < last; ++slab) {
+    parting.begin();
+    for (; f < patch.slabs.size() && patch.slabs[f] <= slab; ++f)
+      if (is_wanted(f)) parting.add(together.faces[next++]);
+  }
+  return std::move(parting).parted();
 }
 
 }  // namespace loft::io

@@ -28,4 +28,14 @@ struct ShadedMesh {
 /// too.
 [[nodiscard]] ShadedMesh shade(const Patch& patch, std::uint32_t slab);
 
+/// Some slabs as one mesh, one after the other; they share no vertices.
+struct ShadedSlabs {
+  ShadedMesh mesh;
+  std::vector<std::size_t> vertices;  ///< how many are each slab's
+  std::vector<std::size_t> faces;
+};
+/// The slabs from `first` up to but not `last` of a patch that has its faces slab by slab, with the
+/// same normals. Cost: that of the patch.
+[[nodiscard]] ShadedSlabs shade_apart(const Patch& patch, std::uint32_t first, std::uint32_t last);
+
 }  // namespace loft::io

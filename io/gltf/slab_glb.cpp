@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "io/bytes/utf8.h"
 #include "io/gltf/gltf_model.h"
@@ -14,10 +15,24 @@ namespace {
 
 using Extras = tinygltf::Value::Object;
 
+tinygltf::Value count_value(std::size_t count) {
+  return tinygltf::Value(static_cast<double>(count));
+}
+
+Extras extras(const SlabInfo& info) {
+  return {{"low", tinygltf::Value(info.low)}, {"high", tinygltf::Value(info.high)}};
+}
+
 Extras extras(const SlabInfo& info, const SlabView& view) {
-  return {{"label", tinygltf::Value(json_text(view.label))},
-          {"low", tinygltf::Value(info.low)},
-          {"high", tinygltf::Value(info.high)}};
+  Extras said = extras(info);
+  said["label"] = tinygltf::Value(json_text(view.label));
+  return said;
+}
+
+/// What is said of a slab of a capture.
+void add_history(Extras& said, double confidence, std::uint64_t edit) {
+  said["confidence"] = tinygltf::Value(confidence);
+  said["edit"] = tinygltf::Value(static_cast<double>(edit));
 }
 
 /// One node.
@@ -49,15 +64,55 @@ std::string glb(ShadedMesh shaded, Extras extras, const SlabView& view) {
   return std::move(out).str();
 }
 
+/// One node for slabs of which `all` says something.
+std::string bundle(ShadedSlabs slabs, std::vector<Extras> all, const SlabView& view) {
+  tinygltf::Value::Array said;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    all[i]["vertices"] = count_value(slabs.vertices[i]);
+    all[i]["indices"] = count_value(3 * slabs.faces[i]);
+    said.emplace_back(std::move(all[i]));
+  }
+  return glb(std::move(slabs.mesh),
+             {{"label", tinygltf::Value(json_text(view.label))},
+              {"slabs", tinygltf::Value(std::move(said))}},
+             view);
+}
+
 }  // namespace
 
 std::string slab_glb(const Snapshot& snapshot, std::size_t i, const SlabView& view) {
   const std::size_t first = i - std::min<std::size_t>(i, 1);
   const Patch patch = snapshot.patch(first, std::min(i + 2, snapshot.slab_count()));
   Extras said = extras(snapshot.slab(i), view);
-  said["confidence"] = tinygltf::Value(snapshot.report(i).confidence);
-  said["edit"] = tinygltf::Value(static_cast<double>(view.edit));
+  add_history(said, snapshot.report(i).confidence, view.edit);
   return glb(shade(patch, static_cast<std::uint32_t>(i)), std::move(said), view);
+}
+
+std::string bundle_glb(const Snapshot& snapshot, std::span<const BundledSlab> slabs,
+                       const SlabView& view) {
+  const std::size_t begin = slabs.front().index;
+  const std::size_t end = slabs.back().index + 1;
+  const Patch patch = snapshot.patch(begin - std::min<std::size_t>(begin, 1),
+                                     std::min(end + 1, snapshot.slab_count()));
+  std::vector<Extras> all;
+  for (const auto& [i, id, edit] : slabs) {
+    Extras& said = all.emplace_back(extras(snapshot.slab(i)));
+    said["id"] = tinygltf::Value(id);
+    add_history(said, snapshot.report(i).confidence, edit);
+  }
+  return bundle(
+      shade_apart(patch, static_cast<std::uint32_t>(begin), static_cast<std::uint32_t>(end)),
+      std::move(all), view);
+}
+
+std::string bundle_glb(const Patch& patch, std::span<const SlabInfo> slabs,
+                       std::span<const std::string> ids, const SlabView& view) {
+  std::vector<Extras> all;
+  for (std::size_t i = 0; i < slabs.size(); ++i) {
+    Extras& said = all.emplace_back(extras(slabs[i]));
+    said["id"] = tinygltf::Value(ids[i]);
+  }
+  return bundle(shade_apart(patch, slabs.front().id, slabs.back().id + 1), std::move(all), view);
 }
 
 std::string slab_glb(const Patch& patch, const SlabInfo& info, const SlabView& view) {

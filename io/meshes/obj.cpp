@@ -3,10 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "io/bytes/text.h"
 #include "io/bytes/text_reader.h"
+#include "io/meshes/materials.h"
 #include "io/meshes/polygons.h"
 #include "io/version.h"
 #include "reconstruct/number_text.h"
@@ -39,13 +42,17 @@ void append_faces(std::string& text, const Mesh& mesh, std::size_t first_vertex)
 
 }  // namespace
 
-void write_obj(std::ostream& out, std::span<const Part> parts, const WriteOptions&) {
+void write_obj(std::ostream& out, std::span<const Part> parts, const WriteOptions& options) {
+  const bool has_file = !options.materials.empty();
+  const std::vector<std::string> materials = material_names(parts);
   std::string text = "# " + std::string(generator()) + '\n';
+  if (has_file) text += "mtllib " + options.materials + '\n';
   std::size_t first_vertex = 1;
-  for (const Part& part : parts) {
-    const Mesh mesh = to_mesh(*part.surface);
-    if (!part.label.empty()) text += "o " + one_line(part.label) + '\n';
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const Mesh mesh = to_mesh(*parts[i].surface);
+    if (!parts[i].label.empty()) text += "o " + one_line(parts[i].label) + '\n';
     append_vertices(text, mesh);
+    if (has_file) text += "usemtl " + materials[i] + '\n';
     append_faces(text, mesh, first_vertex);
     first_vertex += mesh.points.size();
   }

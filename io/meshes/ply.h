@@ -17,7 +17,8 @@ namespace loft::io {
 /// Vertex properties tell where a vertex comes from, as Origin does: `uchar kind` (0 contour,
 /// 1 cleaning, 2 crossing, 3 steiner), `int slice`, `int contour`, `int point`, -1 for none. Face
 /// properties: `uchar kind` (0 sheet, 1 wall, 2 bottom cap, 3 top cap), `int slab`. Where parts
-/// have labels, both have `int label`, named by header lines `comment label 0 heart`.
+/// have labels, both have `int label`, named by header lines `comment label 0 heart`, and vertices
+/// `uchar red, green, blue`, as other programs show them.
 void write_ply(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
 
 /// Reads ASCII and binary PLY of either byte order, any number types and any further elements and

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/bytes/file.h"
+#include "io/meshes/label_colour.h"
 #include "io/meshes/ply_records.h"
 
 namespace loft::io {
@@ -39,23 +40,30 @@ void read_back(AtomicFile& file, std::size_t record_size, Take take) {
 
 }  // namespace
 
-PlyPieces::PlyPieces(std::filesystem::path path, std::vector<std::string> labels)
+PlyPieces::PlyPieces(std::filesystem::path path, std::vector<std::string> labels,
+                     std::vector<std::optional<Colour>> colours)
     : path_(std::move(path)),
       labels_(std::move(labels)),
+      colours_(std::move(colours)),
       is_labelled_(ply_has_labels(labels_)),
       vertices_(beside(path_, ".vertices")),
-      faces_(beside(path_, ".faces")) {}
+      faces_(beside(path_, ".faces")) {
+  colours_.resize(labels_.size());
+}
 
-std::optional<std::int32_t> PlyPieces::label() const {
+std::optional<PlyLabel> PlyPieces::label() const {
   if (!is_labelled_) return std::nullopt;
-  return static_cast<std::int32_t>(parts_.size() - 1);
+  const std::size_t part = parts_.size() - 1;
+  return PlyLabel{static_cast<std::int32_t>(part),
+                  colour_of({labels_[part], nullptr, colours_[part]})};
 }
 
 void PlyPieces::add_vertices(std::span<const SurfaceVertex> vertices) {
   bytes_.resize(vertices.size() * ply_vertex_size(is_labelled_));
   char* place = bytes_.data();
+  const std::optional<PlyLabel> said = label();
   for (const SurfaceVertex& vertex : vertices)
-    place = put_ply_vertex(place, vertex.place, vertex.origin, label());
+    place = put_ply_vertex(place, vertex.place, vertex.origin, said);
   vertices_.stream().write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
   check(vertices_.stream(), path_);
   parts_.back().vertex_count += vertices.size();
@@ -65,8 +73,9 @@ void PlyPieces::add_vertices(std::span<const SurfaceVertex> vertices) {
 void PlyPieces::add_faces(std::span<const SurfaceFace> faces) {
   bytes_.resize(faces.size() * ply_face_size(is_labelled_));
   char* place = bytes_.data();
+  const std::optional<PlyLabel> said = label();
   for (const SurfaceFace& face : faces)
-    place = put_ply_face(place, face.corners, face.kind, face.slab, label());
+    place = put_ply_face(place, face.corners, face.kind, face.slab, said);
   faces_.stream().write(bytes_.data(), static_cast<std::streamsize>(bytes_.size()));
   check(faces_.stream(), path_);
   parts_.back().face_count += faces.size();
@@ -81,7 +90,9 @@ void PlyPieces::end(const VertexNumbers& numbers) {
 
 void PlyPieces::skip() {
   assert(parts_.back().vertex_count == 0 && parts_.back().face_count == 0);
-  labels_.erase(labels_.begin() + static_cast<std::ptrdiff_t>(parts_.size() - 1));
+  const auto part = static_cast<std::ptrdiff_t>(parts_.size() - 1);
+  labels_.erase(labels_.begin() + part);
+  colours_.erase(colours_.begin() + part);
 }
 
 void PlyPieces::commit() {

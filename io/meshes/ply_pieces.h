@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "io/bytes/atomic_file.h"
+#include "io/meshes/ply_records.h"
 #include "reconstruct/sew/surface_sink.h"
+#include "reconstruct/stack.h"
 
 namespace loft::io {
 
@@ -21,8 +23,10 @@ namespace loft::io {
 /// written.
 class PlyPieces : public SurfaceSink {
  public:
-  /// Each label is one surface, in this order; a single empty one if there are none.
-  PlyPieces(std::filesystem::path path, std::vector<std::string> labels);
+  /// Each label is one surface, in this order; a single empty one if there are none. As many
+  /// colours; those that are none are by the labels' names.
+  PlyPieces(std::filesystem::path path, std::vector<std::string> labels,
+            std::vector<std::optional<Colour>> colours = {});
 
   void add_vertices(std::span<const SurfaceVertex> vertices) override;
   void add_faces(std::span<const SurfaceFace> faces) override;
@@ -44,12 +48,13 @@ class PlyPieces : public SurfaceSink {
     VertexNumbers numbers;
   };
 
-  [[nodiscard]] std::optional<std::int32_t> label() const;
+  [[nodiscard]] std::optional<PlyLabel> label() const;
   void copy_vertices(std::ostream& out);
   void copy_faces(std::ostream& out);
 
   std::filesystem::path path_;
   std::vector<std::string> labels_;
+  std::vector<std::optional<Colour>> colours_;
   bool is_labelled_;
   AtomicFile vertices_;  // never committed: these two go away in the end
   AtomicFile faces_;

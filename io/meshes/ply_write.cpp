@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "io/bytes/text.h"
+#include "io/meshes/label_colour.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/ply_records.h"
 #include "io/version.h"
@@ -24,7 +25,8 @@ std::string ply_header(std::span<const std::string> labels, bool is_labelled, Pl
   text += "element vertex " + std::to_string(counts.vertices) +
           "\nproperty double x\nproperty double y\nproperty double z\nproperty uchar kind\n"
           "property int slice\nproperty int contour\nproperty int point\n";
-  if (is_labelled) text += "property int label\n";
+  if (is_labelled)
+    text += "property int label\nproperty uchar red\nproperty uchar green\nproperty uchar blue\n";
   text += "element face " + std::to_string(counts.faces) +
           "\nproperty list uchar int vertex_indices\nproperty uchar kind\nproperty int slab\n";
   if (is_labelled) text += "property int label\n";
@@ -41,7 +43,7 @@ char* grow(std::string& bytes, std::size_t count, std::size_t size) {
 }
 
 void append_vertices(std::string& bytes, const Surface& surface,
-                     std::optional<std::int32_t> label) {
+                     const std::optional<PlyLabel>& label) {
   char* place = grow(bytes, surface.n_vertices(), ply_vertex_size(label.has_value()));
   for (const auto vertex : surface.vertices()) {
     const auto& p = surface.point(vertex);
@@ -50,7 +52,7 @@ void append_vertices(std::string& bytes, const Surface& surface,
 }
 
 void append_faces(std::string& bytes, const Surface& surface, std::size_t first_vertex,
-                  std::optional<std::int32_t> label) {
+                  const std::optional<PlyLabel>& label) {
   char* place = grow(bytes, surface.n_faces(), ply_face_size(label.has_value()));
   for (const auto face : surface.faces()) {
     std::array<std::uint32_t, 3> corners{};
@@ -75,7 +77,9 @@ void write_ply(std::ostream& out, std::span<const Part> parts, const WriteOption
   }
   const bool is_labelled = ply_has_labels(labels);
   const auto label_of = [&](std::size_t part) {
-    return is_labelled ? std::optional(static_cast<std::int32_t>(part)) : std::nullopt;
+    return is_labelled
+               ? std::optional(PlyLabel{static_cast<std::int32_t>(part), colour_of(parts[part])})
+               : std::nullopt;
   };
   std::string bytes = ply_header(labels, is_labelled, counts);
   bytes.reserve(bytes.size() + counts.vertices * ply_vertex_size(is_labelled) +

@@ -2,7 +2,6 @@
 #include "io/meshes/seam.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
@@ -12,6 +11,8 @@
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "io/meshes/place_hash.h"
 
 namespace loft::io {
 
@@ -36,17 +37,6 @@ class Sets {
 
  private:
   std::vector<Index> parent_;
-};
-
-struct PlaceHash {
-  std::size_t operator()(const Vec3& place) const {
-    std::uint64_t hash = 0;
-    for (const double coordinate : place) {
-      hash = (hash ^ std::bit_cast<std::uint64_t>(coordinate + 0.0)) * 0x9e37'79b9'7f4a'7c15U;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
 };
 
 /// For each vertex, the first one at the same place.

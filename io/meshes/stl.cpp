@@ -15,6 +15,7 @@
 #include "io/version.h"
 #include "mesh/vec3.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/number_text.h"
 
 namespace loft::io {
 
@@ -37,6 +38,25 @@ char* put_place(char* place, const Vec3& coordinates) {
   return place;
 }
 
+/// Without the origin that the coordinates are about.
+Mesh moved(Mesh mesh, const Vec3& origin) {
+  for (Vec3& point : mesh.points) point = minus(point, origin);
+  return mesh;
+}
+
+/// What made the file and, if coordinates are not about 0, the place that they are about, as far as
+/// there is room for it.
+std::string header(const WriteOptions& options) {
+  std::string result(generator());
+  if (options.origin) {
+    std::string origin = " origin";
+    for (const double coordinate : *options.origin) origin += ' ' + exact(coordinate);
+    if (result.size() + origin.size() <= header_size) result += origin;
+  }
+  result.resize(header_size, '\0');
+  return result;
+}
+
 char* put_faces(char* place, const Mesh& mesh) {
   for (const auto& [i, j, k] : mesh.faces) {
     const Vec3& a = mesh.points[i];
@@ -50,15 +70,16 @@ char* put_faces(char* place, const Mesh& mesh) {
 
 }  // namespace
 
-void write_stl(std::ostream& out, std::span<const Part> parts, const WriteOptions&) {
+void write_stl(std::ostream& out, std::span<const Part> parts, const WriteOptions& options) {
   std::size_t face_count = 0;
   for (const Part& part : parts) face_count += part.surface->n_faces();
   if (face_count > 0xffff'ffff) throw Error("more triangles than an STL file can count");
 
   std::string bytes(preamble_size + face_count * record_size, '\0');
-  bytes.replace(0, generator().size(), generator());
+  bytes.replace(0, header_size, header(options));
   char* place = put(bytes.data() + header_size, static_cast<std::uint32_t>(face_count));
-  for (const Part& part : parts) place = put_faces(place, to_mesh(*part.surface));
+  for (const Part& part : parts)
+    place = put_faces(place, moved(to_mesh(*part.surface), options.origin.value_or(Vec3{})));
   out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
 }
 

@@ -74,6 +74,10 @@ class Snapshot {
   /// How sure the surface is there, and what it links, with slices counted from below. Cost: that
   /// of the slab.
   [[nodiscard]] SlabReport report(std::size_t i) const;
+  /// The faces between the slices of a slab, without caps.
+  [[nodiscard]] std::size_t tile_count(std::size_t i) const {
+    return slabs_[i]->tiles->tiles.size();
+  }
   /// The index of a slab, or slab_count() if there is none of that id.
   [[nodiscard]] std::size_t find(std::uint32_t id) const;
 

@@ -16,8 +16,23 @@ function gradient(colours) {
   return `linear-gradient(to right, ${colours.join(', ')})`;
 }
 
-function byLabel(slab) {
-  return new Color(...(slab.colour ?? [0.6, 0.66, 0.72]));
+const unnamed = [0.6, 0.66, 0.72];
+
+// `#rrggbb` of what a slab came with.
+export function hexOf({ colour }) {
+  return colour && `#${new Color(...colour).getHexString()}`;
+}
+
+function byLabel(labels) {
+  const colours = new Map();
+  const make = (label) => {
+    const colour = labels.colour(label);
+    return colour ? new Color(colour) : new Color(...unnamed);
+  };
+  return { of: ({ label }) => {
+    if (!colours.has(label)) colours.set(label, make(label));
+    return colours.get(label);
+  } };
 }
 
 function byAge(slabs) {
@@ -37,34 +52,24 @@ function byConfidence() {
 }
 
 // What gives slabs their colour (`of`), and what the legend has to say about it.
-export function colouring(mode, slabs) {
+export function colouring(mode, slabs, labels) {
   if (mode === 'age') return byAge(slabs);
   if (mode === 'confidence') return byConfidence();
-  const labels = new Map();
-  for (const slab of slabs) if (slab.colour) labels.set(slab.label, byLabel(slab));
-  return { of: byLabel, labels: [...labels].sort(([a], [b]) => a.localeCompare(b, 'en', { numeric: true })) };
+  return byLabel(labels);
 }
 
-function add(parent, name, className, text = '') {
-  const element = parent.appendChild(document.createElement(name));
+function add(parent, className, text = '') {
+  const element = parent.appendChild(document.createElement('span'));
   element.className = className;
   element.textContent = text;
   return element;
 }
 
-// Fills `list` with what the colours mean.
-export function explain(list, { gradient: bar, ends, labels }) {
-  list.replaceChildren();
-  if (bar) {
-    const item = add(list, 'li', 'ramp');
-    add(item, 'span', 'bar').style.backgroundImage = bar;
-    for (const end of ends) add(item, 'span', '', end);
-    return;
-  }
-  if (labels.length === 1 && labels[0][0] === '') return;  // nothing to tell apart
-  for (const [label, colour] of labels) {
-    const item = add(list, 'li', '');
-    add(item, 'span', 'swatch').style.backgroundColor = `#${colour.getHexString()}`;
-    add(item, 'span', 'name', label || 'no label');
-  }
+// Fills `legend` with what the colours mean; those of labels are told by their list.
+export function explain(legend, { gradient: bar, ends }) {
+  legend.hidden = !bar;
+  legend.replaceChildren();
+  if (!bar) return;
+  add(legend, 'bar').style.backgroundImage = bar;
+  for (const end of ends) add(legend, '', end);
 }

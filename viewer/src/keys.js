@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The keyboard. Arrows belong to the control that has the focus, letters to the page.
+// The keyboard. Arrows belong to the control that has the focus, letters to the page but where one
+// writes.
 
 const turn = Math.PI / 24;
 const zooms = { '+': 'dollyIn', '=': 'dollyIn', '-': 'dollyOut' };
 const nearer = 1 / 1.15;  // what dollyIn multiplies the distance by
 
-// Arrows move sliders and choose in lists; letters choose in lists.
-function takesArrows(target) {
-  return target instanceof HTMLSelectElement || target.type === 'range';
-}
+const plain = new Set(['range', 'checkbox', 'color']);  // inputs without letters
+
+// Letters are written in fields and choose in lists; arrows do, too, and move sliders.
 function takesLetters(target) {
-  return target instanceof HTMLSelectElement;
+  return target instanceof HTMLSelectElement ||
+         (target instanceof HTMLInputElement && !plain.has(target.type));
+}
+function takesArrows(target) {
+  return takesLetters(target) || target.type === 'range';
 }
 
 function move(controls, event) {
@@ -27,24 +31,27 @@ function move(controls, event) {
 }
 
 // Digits by their keys: with Shift they are other characters.
-function nameOf({ key, code, shiftKey }) {
+function nameOf({ key, code, ctrlKey, metaKey, shiftKey }) {
   const name = /^Digit\d$/.test(code) ? code.at(-1) : key.toLowerCase();
-  return shiftKey && /^[a-z\d]$/.test(name) ? `shift+${name}` : name;
+  const isShifted = shiftKey && /^[a-z\d]$/.test(name);
+  return `${ctrlKey || metaKey ? 'ctrl+' : ''}${isShifted ? 'shift+' : ''}${name}`;
 }
 
-// `actions`: what to do, by key ('x', 'shift+x').
+// `actions`: what to do, by key ('x', 'shift+x', 'ctrl+shift+z').
 export function listenToKeys(stage, actions) {
   addEventListener('keydown', (event) => {
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (document.querySelector('dialog[open]')) return;
-    if (event.key.startsWith('Arrow') && !takesArrows(event.target)) {
+    if (event.altKey || document.querySelector('dialog[open]')) return;
+    const isCommand = event.ctrlKey || event.metaKey;
+    if (takesLetters(event.target) && event.key !== 'Escape') return;
+    if (!isCommand && event.key.startsWith('Arrow')) {
+      if (takesArrows(event.target)) return;
       move(stage.controls, event);
-    } else if (event.key in zooms) {
+    } else if (!isCommand && event.key in zooms) {
       stage.controls.dispatchEvent({ type: 'start' });
       stage.controls[zooms[event.key]](nearer);
     } else {
       const action = actions[nameOf(event)];
-      if (!action || (takesLetters(event.target) && event.key !== 'Escape')) return;
+      if (!action) return;
       action();
     }
     event.preventDefault();

@@ -1,15 +1,21 @@
 // SPDX-License-Identifier: MIT
 import { lookAlong } from './axis_views.js';
 import { CutControls } from './cut_controls.js';
+import { Drawer } from './drawer.js';
 import { Events } from './events.js';
-import { onClick } from './pick.js';
+import { Figures } from './figures.js';
 import { nameOf } from './frame.js';
+import { History } from './history.js';
 import { listenToKeys } from './keys.js';
+import { LabelList } from './label_list.js';
+import { Labels } from './labels.js';
 import { Measuring } from './measuring.js';
 import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
+import { onClick } from './pick.js';
 import { savePicture } from './screenshot.js';
 import { Settings } from './settings.js';
+import { Table } from './table.js';
 import { Theme } from './theme.js';
 import { View } from './view.js';
 
@@ -20,6 +26,12 @@ const theme = new Theme();
 const settings = new Settings();
 const cut = new CutControls();
 const events = new Events();
+const figures = new Figures();
+const history = new History();
+const drawer = new Drawer();
+const labels = new Labels();
+const labelList = new LabelList(labels);
+const table = new Table(figures, labels);
 const view = makeView();
 const measuring = view && new Measuring(view, element('figures'));
 const overlay = new Overlay();
@@ -28,7 +40,7 @@ const overlay = new Overlay();
 function makeView() {
   const lengths = [...document.querySelectorAll('#lengths span')];
   try {
-    return new View(element('canvas'), lengths, panel, () => events.restart());
+    return new View(element('canvas'), lengths, panel, labels, () => events.restart());
   } catch {
     element('no-picture').hidden = false;
     return undefined;
@@ -50,10 +62,21 @@ function listen() {
   events.addEventListener('connected', () => panel.showConnected());
   events.addEventListener('lost', () => panel.showLost());
   events.addEventListener('status', ({ detail }) => panel.showStatus(detail));
+  events.addEventListener('reset', ({ detail }) => {
+    panel.showKind(detail);
+    figures.reset(detail);
+    history.reset(detail, nameOf(detail.unit));
+  });
+  events.addEventListener('change', () => {
+    figures.wear();
+    history.wear();
+  });
+  figures.addEventListener('known', ({ detail }) => labels.learn(detail ?? []));
+  labels.addEventListener('choice', () => drawer.showPicked(labels.chosen));
 }
 
-// Figures alone.
-function showFigures() {
+// Counts alone.
+function showCounts() {
   let unit;
   events.addEventListener('reset', ({ detail }) => {
     unit = nameOf(detail.unit);
@@ -92,6 +115,12 @@ async function pick(x, y) {
   const nearest = await view.pick(x, y);
   if (nearest) settings.choose(nearest.slice.z);
   view.apply(settings);
+  showFiguresOf(panel.pickedLabel);
+}
+
+async function showFiguresOf(label) {
+  const found = label === undefined ? undefined : await figures.of(label);
+  if (found) panel.addFigures(label, found, figures.measure);
 }
 
 function savePng() {
@@ -114,6 +143,7 @@ function connectPicture() {
 function forget() {
   measuring.drop();
   view.forgetPick();
+  labels.choose(undefined);
 }
 
 function connectControls() {
@@ -158,6 +188,12 @@ function connectControls() {
     p: () => pick(0, 0),
     t: () => theme.toggle(),
     '?': help,
+    h: () => labelList.toggleChosen(),
+    i: () => labelList.isolateChosen(),
+    '/': () => labelList.search(),
+    g: () => table.open(),
+    'ctrl+z': () => history.undo(),
+    'ctrl+shift+z': () => history.redo(),
     escape: forget,
   });
 }
@@ -168,6 +204,6 @@ if (view) {
   connectControls();
   showSurface();
 } else {
-  showFigures();
+  showCounts();
 }
 events.start();

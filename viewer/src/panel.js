@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What the page says in words: the state of the connection, counts, and what was clicked.
-import { coordinate, count, exact, number } from './text.js';
+import { coordinate, count, counted, exact, number } from './text.js';
 
 const kept = 100;  // latencies that the median is of
 
@@ -23,6 +23,9 @@ export function median(values) {
 export class Panel {
   #latencies = [];
   #wasConnected = false;
+  #isConnected = false;
+  #isRecorded;  // whether nothing comes any more; undefined until the server says what it shows
+  #picked;
 
   showCounts({ counts, volume, edits, unit }) {
     const texts = { ...counts, edits };
@@ -55,28 +58,36 @@ export class Panel {
     this.#showLatency(median(this.#latencies));
   }
 
-  // The server's own figure, as long as there is none from here.
-  showStatus({ latency_ms: latency, edits }) {
-    if (this.#latencies.length === 0 && edits > 0) this.#showLatency(latency?.median);
+  // The server's own figure, as long as there is none from here; after a resume it has none, either.
+  showStatus({ latency_ms: latency }) {
+    if (this.#latencies.length === 0 && latency?.last > 0) this.#showLatency(latency.median);
+  }
+
+  // What it is that is shown, as a `reset` says it.
+  showKind({ kind, name, edits }) {
+    this.#isRecorded = kind === undefined ? edits === undefined : kind !== 'capture';
+    document.title = name ? `${name} – Loft` : 'Loft';
+    element('name').textContent = element('name').title = name ?? '';
+    this.#showState();
   }
 
   showConnected() {
-    element('state').textContent = 'Live';
-    element('state').dataset.state = 'live';
+    this.#isConnected = true;
+    this.#showState();
     element('banner').hidden = true;
     element('announcement').textContent = this.#wasConnected ? 'Connected again.' : '';
     this.#wasConnected = true;
   }
 
   showLost() {
-    element('state').textContent = 'Not connected';
-    element('state').dataset.state = 'lost';
+    this.#isConnected = false;
+    this.#showState();
     element('banner').hidden = false;
     element('announcement').textContent = '';
   }
 
   showPending(pending, isEmpty) {
-    element('loading').textContent = pending > 0 ? `Loading ${count(pending)} slabs …` : '';
+    element('loading').textContent = pending > 0 ? `Loading ${counted(pending, 'slab')} …` : '';
     element('canvas').setAttribute('aria-busy', String(pending > 0));
     element('empty').hidden = !isEmpty;
   }
@@ -89,26 +100,50 @@ export class Panel {
       const label = nearest.slice.labels?.[nearest.contour];
       rows.push(['Slice', `z ${exact(nearest.slice.z)} ${unit}`],
                 ['Contour', `${nearest.contour}${label ? ` (${label})` : ''}`],
-                ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)}`]);
+                ['Point', `${nearest.point}: ${exact(x)}, ${exact(y)} ${unit}`]);
     }
-    rows.push(['Place', place.map((value) => coordinate(value, high - low)).join(', ')]);
+    const [px, py, pz] = place.map((value) => coordinate(value, high - low));
+    rows.push(['Place', `${px}, ${py}, ${pz} ${unit}`]);
     if (slab.label) rows.push(['Label', slab.label]);
+    this.#picked = slab;
     if (slab.confidence !== undefined)  // not of a mesh
       rows.push(['Slab', slab.id],
                 ['Between', `${exact(slab.low)} and ${exact(slab.high)} ${unit}`],
                 ['Confidence', number(slab.confidence)], ['Edit', count(slab.edit)]);
-    const list = element('pick');
-    list.replaceChildren();
-    for (const [term, text] of rows) {
-      list.appendChild(document.createElement('dt')).textContent = term;
-      list.appendChild(document.createElement('dd')).textContent = text;
-    }
+    element('pick').replaceChildren();
+    this.#addToPick(rows);
     element('pick-hint').hidden = true;
   }
 
+  // The label of what was picked, until its figures are there.
+  get pickedLabel() { return this.#picked?.label; }
+
+  // Those of a label (figures.js), if it is still what was picked.
+  addFigures(label, { volume, area }, measure) {
+    if (this.#picked?.label !== label) return;
+    this.#picked = undefined;  // once
+    this.#addToPick([['Volume', `${number(volume)} ${measure.volumeUnit}`],
+                     ['Area', `${number(area)} ${measure.areaUnit}`]]);
+  }
+
   forgetPick() {
+    this.#picked = undefined;
     element('pick').replaceChildren();
     element('pick-hint').hidden = false;
+  }
+
+  #addToPick(rows) {
+    for (const [term, text] of rows) {
+      element('pick').appendChild(document.createElement('dt')).textContent = term;
+      element('pick').appendChild(document.createElement('dd')).textContent = text;
+    }
+  }
+
+  #showState() {
+    const state = element('state');
+    const word = this.#isRecorded === undefined ? 'Connected' : this.#isRecorded ? 'Recorded' : 'Live';
+    state.textContent = this.#isConnected ? word : 'Not connected';
+    state.dataset.state = this.#isConnected ? word.toLowerCase() : 'lost';
   }
 
   #showLatency(latency) {

@@ -97,13 +97,11 @@ export function wayAlong(triangles, plane, from, to) {
   return ways.sort((a, b) => a.length - b.length)[0];
 }
 
-// The triangles of some geometries of a BatchedMesh.
-export function* trianglesOf(mesh, geometries) {
-  const { attributes: { position: { array: places } }, index: { array: corners } } = mesh.geometry;
-  const placeOf = (i) => [places[3 * i], places[3 * i + 1], places[3 * i + 2]];
-  for (const geometry of geometries) {
-    const { start, count } = mesh.getGeometryRangeAt(geometry);
-    for (let i = start; i < start + count; i += 3)
-      yield [placeOf(corners[i]), placeOf(corners[i + 1]), placeOf(corners[i + 2])];
+// The triangles of some pieces, as triples of places.
+export function* trianglesOf(pieces) {
+  for (const { positions, indices } of pieces) {
+    const placeOf = (i) => [...positions.subarray(3 * i, 3 * i + 3)];
+    for (let i = 0; i < indices.length; i += 3)
+      yield [placeOf(indices[i]), placeOf(indices[i + 1]), placeOf(indices[i + 2])];
   }
 }

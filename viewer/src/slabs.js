@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: MIT
 // Which slabs there are and which of them are shown. A slab that is gone stays in the picture until
 // those in its place have arrived; they come in at the same moment, so that nothing flickers.
+import { ByLabel } from './by_label.js';
 
 // For how long a slab that is gone may wait for all that replace it: where a stack changes faster
 // than it can be fetched, some of what is new is better than all of what is old.
 const patience = 400;  // ms
 
+// Of the same label.
 function meet(a, b) {
-  return a.label === b.label && a.low < b.high && b.low < a.high;
+  return a.low < b.high && b.low < a.high;
 }
 
 // Visits those that meet one; returns how many. Without a list: there may be thousands, often.
 function visitMeeting(slabs, slab, visit = () => {}) {
   let count = 0;
-  for (const other of slabs) {
+  for (const other of slabs.of(slab.label)) {
     if (!meet(other, slab)) continue;
     ++count;
     visit(other);
@@ -21,11 +23,20 @@ function visitMeeting(slabs, slab, visit = () => {}) {
   return count;
 }
 
+function isNewerThere(slabs, slab) {
+  for (const other of slabs.of(slab.label))
+    if (other.order > slab.order && meet(other, slab)) return true;
+  return false;
+}
+
 export class Slabs {
-  #live = new Map();      // by id
-  #pending = new Set();   // live, not yet here
-  #hidden = new Set();    // live and here, but slabs that they replace (`covers`) are still shown
-  #retired = new Set();   // shown, though they are gone: so many in their place are `awaited`
+  #live = new Map();          // by id
+  #liveOnes = new ByLabel();  // the same
+  #pending = new ByLabel();   // live, not yet here
+  #hidden = new ByLabel();    // live and here, but slabs that they replace (`covers`) are still shown
+  #retired = new ByLabel();   // shown, though they are gone: so many in their place are `awaited`
+  #shown = new ByLabel();     // these, and those that are live
+  #free = [];                 // of the hidden and the retired: some that wait for none any more
   #order = 0;
   #show;
   #hide;
@@ -53,13 +64,12 @@ export class Slabs {
   isInPlace(slab) { return slab.isShown && this.#live.get(slab.id) === slab; }
   // Those that touch one of some others.
   beside(slabs) {
-    const isBeside = (other) => slabs.some(({ label, low, high }) => label === other.label &&
-                                                (low === other.high || high === other.low));
-    return [...this.#live.values()].filter((other) => isBeside(other) && !slabs.includes(other));
-  }
-  *shown() {
-    for (const slab of this.#live.values()) if (slab.isShown) yield slab;
-    yield* this.#retired;
+    const own = new Set(slabs);
+    const touching = new Set();
+    for (const { label, low, high } of slabs)
+      for (const other of this.#liveOnes.of(label))
+        if ((low === other.high || high === other.low) && !own.has(other)) touching.add(other);
+    return [...touching];
   }
 
   // The edit in which `removed` (ids) went and `added` came. Returns what is to be fetched.
@@ -68,6 +78,7 @@ export class Slabs {
     const slabs = added.map((slab) => ({ ...slab, order: ++this.#order, isShown: false }));
     for (const slab of slabs) {
       this.#live.set(slab.id, slab);
+      this.#liveOnes.add(slab);
       this.#pending.add(slab);
       visitMeeting(this.#retired, slab, (old) => { ++old.awaited; });
     }
@@ -84,7 +95,7 @@ export class Slabs {
   arrive(slab, now) {
     if (this.#stopAwaiting(slab)) {
       this.#hideUntilItsPlaceIsFree(slab);
-    } else if ([...this.shown()].some((other) => other.order > slab.order && meet(other, slab))) {
+    } else if (isNewerThere(this.#shown, slab)) {
       return;
     } else {
       this.#put(slab);
@@ -95,29 +106,32 @@ export class Slabs {
 
   // Gives up waiting for what takes too long. To be called now and then while anything is pending.
   settle(now) {
-    for (const old of this.#retired)
-      if (now - old.retiredAt > patience && this.#isOutdone(old)) this.#drop(old);
+    for (const old of [...this.#retired]) {
+      const isOutdone = isNewerThere(this.#hidden, old) || isNewerThere(this.#retired, old);
+      if (now - old.retiredAt > patience && isOutdone) this.#drop(old);
+    }
     this.#swap();
   }
 
-  // Swaps what can be swapped.
+  // Swaps what can be swapped: what goes makes room for more, which is at the end then.
   #swap() {
-    for (const old of this.#retired) if (old.awaited === 0) this.#drop(old);
-    for (const slab of this.#hidden) {
-      if (slab.covers > 0) continue;
-      this.#hidden.delete(slab);
-      this.#put(slab);
+    for (const slab of this.#free) {
+      if (slab.awaited === 0 && this.#retired.has(slab)) this.#drop(slab);
+      else if (slab.covers === 0 && this.#hidden.delete(slab)) this.#put(slab);
     }
+    this.#free = [];
   }
 
   #put(slab) {
     slab.isShown = true;
+    this.#shown.add(slab);
     this.#show(slab);
   }
 
   #hideUntilItsPlaceIsFree(slab) {
     slab.covers = visitMeeting(this.#retired, slab);
     this.#hidden.add(slab);
+    if (slab.covers === 0) this.#free.push(slab);
   }
 
   // A shown slab that is gone stays as long as others are awaited in its place.
@@ -126,11 +140,15 @@ export class Slabs {
     slab.awaited = visitMeeting(this.#pending, slab);
     this.#retired.add(slab);
     visitMeeting(this.#hidden, slab, (hidden) => { ++hidden.covers; });
+    if (slab.awaited === 0) this.#free.push(slab);
   }
 
   #drop(slab) {
     this.#retired.delete(slab);
-    visitMeeting(this.#hidden, slab, (hidden) => { --hidden.covers; });
+    this.#shown.delete(slab);
+    visitMeeting(this.#hidden, slab, (hidden) => {
+      if (--hidden.covers === 0) this.#free.push(hidden);
+    });
     slab.isShown = false;
     this.#hide(slab);
   }
@@ -138,22 +156,16 @@ export class Slabs {
   // Whether it was awaited.
   #stopAwaiting(slab) {
     if (!this.#pending.delete(slab)) return false;
-    visitMeeting(this.#retired, slab, (old) => { --old.awaited; });
+    visitMeeting(this.#retired, slab, (old) => { if (--old.awaited === 0) this.#free.push(old); });
     return true;
   }
 
   #retire(slab, now) {
     if (!slab) return;
     this.#live.delete(slab.id);
+    this.#liveOnes.delete(slab);
     this.#stopAwaiting(slab);
     this.#hidden.delete(slab);
     if (slab.isShown) this.#keepOld(slab, now);
-  }
-
-  // Whether something newer is there to be shown in its place.
-  #isOutdone(old) {
-    for (const slabs of [this.#hidden, this.#retired])
-      for (const slab of slabs) if (slab.order > old.order && meet(slab, old)) return true;
-    return false;
   }
 }

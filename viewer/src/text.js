@@ -21,6 +21,11 @@ export function count(value) {
   return Number.isFinite(value) ? value.toLocaleString('en') : '–';
 }
 
+// `1 slab`, `2 slabs`
+export function counted(value, thing) {
+  return `${count(value)} ${thing}${value === 1 ? '' : 's'}`;
+}
+
 // A coordinate exactly as it came in.
 export function exact(value) {
   return String(value);

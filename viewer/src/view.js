@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: MIT
 // The picture of the surface: what the server says goes in, frames come out.
 import { Box3 } from 'three';
-import { Batch, diagonal } from './batch.js';
-import { colouring, explain } from './colours.js';
+import { diagonal } from './batch.js';
+import { fetchMany } from './bundles.js';
+import { colouring, explain, hexOf } from './colours.js';
 import { Contours } from './contours.js';
 import { CutView } from './cut_view.js';
 import { Frame, nameOf } from './frame.js';
 import { Highlight } from './highlight.js';
+import { Layers } from './layers.js';
 import { Lines } from './lines.js';
 import { Loader } from './loader.js';
 import { hitAt, nearestPoint } from './pick.js';
@@ -20,10 +22,14 @@ import { Surroundings } from './surroundings.js';
 const settleEvery = 100;  // ms
 const quiet = 200;        // ms without an edit
 const lossAfter = 2000;   // ms for which an event may be behind
+const loadingStep = 500;  // ms from frame to frame while much is loaded
+const many = 8;           // slabs that are worth a request for all of them
+const slicesAtOnce = 64;  // whose contours are drawn anew in a frame
 
 export class View {
   #panel;
-  #batch;
+  #labels;
+  #layers;
   #slabs;
   #slots = new Map();  // by slab, if it is shown and not empty
   #contours;
@@ -34,6 +40,7 @@ export class View {
   #picked;             // contour and point
   #worn = new Set();   // slabs with normals that are no longer right
   #renewal;            // timer
+  #redrawing;          // another
   #lose;
   #picks = 0;          // asked for: only the last one is answered
   #pickedZ;            // height of the contour point that is marked
@@ -44,20 +51,23 @@ export class View {
   #mode = 'label';
   #wasMoved = false;   // by the user: then nothing is fitted any more
   #isStale = false;    // box and colours
+  #nextFrame;          // timer
   #settings;
   #legend = document.getElementById('legend');
 
-  // lose() is called when what is shown here is not what the server has.
-  constructor(canvas, labels, panel, lose) {
+  // `lengths` are texts for the box's sides; lose() is called when what is shown here is not what
+  // the server has.
+  constructor(canvas, lengths, panel, labels, lose) {
     this.#panel = panel;
+    this.#labels = labels;
     this.#lose = lose;
     this.stage = new Stage(canvas);
-    this.#batch = new Batch(this.stage.scene, this.stage.material);
+    this.#layers = new Layers(this.stage.scene, this.stage.material, labels);
     this.#slabs = new Slabs((slab) => this.#show(slab), (slab) => this.#hide(slab));
     this.#contours = new Contours(this.#loader, (slice) => this.#draw(slice));
     this.#lines = new Lines(this.stage.scene);
-    this.#surroundings = new Surroundings(this.stage.scene, labels);
-    this.#cut = new CutView(this.stage, { surfaces: [this.stage.material], lines: [this.#lines.material] },
+    this.#surroundings = new Surroundings(this.stage.scene, lengths);
+    this.#cut = new CutView(this.stage, { surfaces: this.#layers.materials, lines: [this.#lines.material] },
                             (z) => this.#contours.ask(z));
     this.#chosen = new Highlight(this.stage.scene, 2.5);
     this.#picked = new Highlight(this.stage.scene, 4);
@@ -65,6 +75,8 @@ export class View {
     this.stage.onFrame(() => this.#prepare());
     this.stage.onResize(() => { if (!this.#wasMoved && this.#frame) this.fit(); });
     setInterval(() => this.#settle(), settleEvery);
+    labels.addEventListener('look', ({ detail }) => this.#applyLook(detail));
+    labels.addEventListener('list', () => this.#applyLook('opacity'));
   }
 
   get heights() { return this.#contours.heights; }
@@ -126,28 +138,29 @@ export class View {
   get cut() { return this.#cut; }
 
   fit() {
-    this.#wasMoved = false;
-    this.stage.fit(this.#box());
+    this.#wasMoved = this.#labels.isAnyHidden;  // what is hidden does not matter now
+    this.stage.fit(this.#box(({ label }) => this.#labels.isShown(label)));
   }
 
   // What lies under a place of the screen (-1 to 1): its slab, the point in the scene, the place in
   // the input's coordinates.
   hitAt(x, y) {
     if (!this.#frame) return undefined;
-    const slabs = new Map([...this.#slots].map(([slab, slot]) => [slot.instance, slab]));
-    const slabOf = ({ batchId }) => slabs.get(batchId);
+    this.#layers.flush();
     const { cap, volumes } = this.#cut;
-    const hit = hitAt(this.stage, [this.#batch.mesh], [x, y],
-                      { cap, volumes, labelOf: (one) => slabOf(one).label });
-    if (!hit) return undefined;
+    const labelOf = this.#layers.labelling();
+    // What is solid goes before what is seen through.
+    const hit = this.#layers.meshes.map((mesh) =>
+      hitAt(this.stage, [mesh], [x, y], { cap, volumes, labelOf })).find(Boolean);
+    const slab = hit && [...this.#slots].find(([, slot]) => this.#layers.isHit(slot, hit))?.[0];
+    if (!slab) return undefined;
     const place = this.#frame.toInput(hit.point);
-    return { point: hit.point, place, slab: this.#slabAround(slabOf(hit), place[2]) };
+    return { point: hit.point, place, slab: this.#slabAround(slab, place[2]) };
   }
 
   // All triangles of a label that are in the picture.
   trianglesOf(label) {
-    const slots = [...this.#slots].filter(([slab]) => slab.label === label);
-    return trianglesOf(this.#batch.mesh, slots.map(([, { geometry }]) => geometry));
+    return trianglesOf(this.#layers.contentsOf(label));
   }
 
   // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
@@ -157,6 +170,7 @@ export class View {
     this.forgetPick();
     if (!hit) return undefined;
     const { slab, place } = hit;
+    this.#labels.choose(slab.label);
     const pick = this.#picks;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
     if (pick !== this.#picks) return undefined;
@@ -180,12 +194,26 @@ export class View {
   }
 
   #fetch(slabs) {
+    if (slabs.length >= many) return this.#fetchMany(slabs);
     for (const slab of slabs)
       this.#ask(slab, () => this.#slabs.isPending(slab), (content) => {
         Object.assign(slab, content);
         this.#slabs.arrive(slab, performance.now());
         this.#showPending();
       }, () => this.#miss(slab));
+  }
+
+  #fetchMany(slabs) {
+    fetchMany(this.#loader, slabs, {
+      isKnown: (id) => this.#slabs.has(id),
+      isWanted: (slab) => this.#slabs.isPending(slab),
+      take: (slab, content) => {
+        Object.assign(slab, content);
+        this.#slabs.arrive(slab, performance.now());
+      },
+      miss: (slab) => this.#miss(slab),
+      done: () => this.#showPending(),
+    });
   }
 
   // A slab may be gone before it could be fetched: then an event says so soon, or was lost.
@@ -231,8 +259,8 @@ export class View {
     if (!this.#frame) this.#begin(slab);
     slab.positions = this.#frame.place(slab.positions, slab.translation);
     slab.integrals = integralsOf(slab.positions, slab.indices);
-    const slot = this.#batch.add(slab);
-    this.#slots.set(slab, slot);
+    this.#labels.enter(slab.label, hexOf(slab));
+    this.#slots.set(slab, this.#layers.add(slab));
     for (const bulk of ['positions', 'normals', 'indices']) delete slab[bulk];
     this.#refreshLater();
   }
@@ -241,14 +269,18 @@ export class View {
     const slot = this.#slots.get(slab);
     if (!slot) return;
     this.#slots.delete(slab);
-    this.#batch.remove(slot);
+    this.#layers.remove(slot);
+    this.#labels.leave(slab.label);
     this.#refreshLater();
   }
 
   // What comes is so far away that both can't be shown: the old is what goes.
   #leave() {
     this.forgetPick();
-    for (const slot of this.#slots.values()) this.#batch.remove(slot);
+    for (const [slab, slot] of this.#slots) {
+      this.#layers.remove(slot);
+      this.#labels.leave(slab.label);
+    }
     this.#slots.clear();
     this.#frame = undefined;
     this.#wasMoved = false;
@@ -259,14 +291,21 @@ export class View {
     if (this.#settings) this.apply(this.#settings);
   }
 
+  // While much is on its way frames are few: each of them holds up the rest.
   #refreshLater() {
     this.#isStale = true;
-    this.stage.invalidate();
+    if (this.#slabs.pending < many) return this.stage.invalidate();
+    this.#nextFrame ??= setTimeout(() => {
+      this.#nextFrame = undefined;
+      this.stage.invalidate();
+    }, loadingStep);
   }
 
   // Ahead of a frame.
   #prepare() {
+    this.#layers.flush();
     if (this.#isStale) this.#refresh();
+    this.#layers.flush();
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage);
@@ -276,8 +315,8 @@ export class View {
 
   #refresh() {
     this.#isStale = false;
-    const colours = colouring(this.#mode, [...this.#slots.keys()]);
-    for (const [slab, slot] of this.#slots) this.#batch.setColour(slot, colours.of(slab));
+    const colours = colouring(this.#mode, [...this.#slots.keys()], this.#labels);
+    for (const [slab, slot] of this.#slots) this.#layers.setColour(slot, colours.of(slab));
     explain(this.#legend, colours);
     this.#cut.fill(this.#pieces(), this.#box(), this.#frame);
     if (!this.#frame) return;
@@ -287,17 +326,49 @@ export class View {
     else this.stage.fit(box);
   }
 
-  // For the caps of a cut.
+  // For the caps of a cut; what is hidden gets none, as it is not drawn.
   #pieces() {
-    const { of: colourOf } = colouring('label', []);
-    return [...this.#slots].map(([slab, { instance }]) => ({ label: slab.label, integrals: slab.integrals,
-      colour: colourOf(slab), opacity: 1, mesh: this.#batch.mesh, instance }));
+    const { of: colourOf } = colouring('label', [], this.#labels);
+    return [...this.#slots].map(([slab, slot]) => ({ label: slab.label, integrals: slab.integrals,
+      colour: colourOf(slab), opacity: slot.opacity, ...this.#layers.placeOf(slot) }));
   }
 
-  #box() {
+  #box(isIn = () => true) {
     const all = new Box3();
-    for (const slot of this.#slots.values()) all.union(slot.box);
+    for (const slot of this.#slots.values()) if (isIn(slot)) all.union(slot.box);
     return all;
+  }
+
+  #applyLook(what) {
+    if (what === 'visibility') this.#layers.applyVisibility();
+    if (what === 'visibility') this.#redrawLater();
+    if (what === 'opacity') this.#layers.applyOpacity();
+    if (what !== 'visibility') this.#isStale = true;
+    this.stage.invalidate();
+  }
+
+  // Contours without those of hidden labels: some slices a frame, as soon as nothing changes.
+  #redrawLater() {
+    clearTimeout(this.#redrawing);
+    if (!this.#settings) return;
+    this.#redrawing = setTimeout(() => {
+      if (this.#lines.isShown) this.#redraw(this.heights);
+      else this.#lines.clear();
+      this.#applySlice(this.#settings.slice);
+    }, quiet);
+  }
+
+  #redraw(heights) {
+    for (const z of heights.slice(0, slicesAtOnce))
+      if (this.#contours.get(z)) this.#draw(this.#contours.get(z));
+    const rest = heights.slice(slicesAtOnce);
+    if (rest.length > 0) this.#redrawing = setTimeout(() => this.#redraw(rest));
+  }
+
+  // What is to be seen of a slice.
+  #shownPart(slice) {
+    const isShown = (_, contour) => this.#labels.isShown(slice.labels?.[contour] ?? '');
+    return slice && { ...slice, contours: slice.contours.filter(isShown) };
   }
 
   #applyContours(areShown) {
@@ -312,7 +383,7 @@ export class View {
 
   #draw(slice) {
     if (!this.#frame || !this.#lines.isShown) return;
-    this.#lines.set(slice, this.#frame);
+    this.#lines.set(this.#shownPart(slice), this.#frame);
     this.stage.invalidate();
   }
 
@@ -320,7 +391,7 @@ export class View {
     const slice = z === undefined ? undefined : await this.#contours.ask(z);
     const isOutdated = z !== this.#settings.slice;
     if (!this.#frame || isOutdated) return;
-    this.#chosen.showSlice(slice, this.#frame);
+    this.#chosen.showSlice(this.#shownPart(slice), this.#frame);
     this.stage.invalidate();
   }
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -17,6 +18,7 @@ namespace {
 using namespace testing;
 using nlohmann::json;
 using ::testing::HasSubstr;
+using ::testing::MatchesRegex;
 
 std::string tower(int count) {
   std::string lines;
@@ -93,6 +95,65 @@ TEST(View, ShowsTheSurfaceOfASession) {
   EXPECT_EQ(client->Post("/slices", tower(1), "application/x-ndjson")->status, 405);
   EXPECT_EQ(running.interrupt(), 0);
   EXPECT_EQ(content(folder / "kept"), before);
+}
+
+/// Four slices of a cube of 3, and a smaller one in it.
+std::string two_cubes() {
+  std::string lines;
+  for (int z = 0; z < 4; ++z) {
+    std::string contours = R"([[0, 0], [3, 0], [3, 3], [0, 3]])";
+    std::string labels = R"("Body 1")";
+    if (z < 2) {
+      contours += ", [[1, 1], [2, 1], [2, 2], [1, 2]]";
+      labels += R"(, "heart")";
+    }
+    lines += R"({"z": )" + std::to_string(z) + R"(, "contours": [)" + contours +
+             R"(], "labels": [)" + labels + "]}\n";
+  }
+  return lines;
+}
+
+void expect_two_cubes(httplib::Client& client, std::size_t slices, std::size_t inner_slices) {
+  const json labels = json::parse(client.Get("/labels")->body)["labels"];
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_EQ(labels[0]["label"], "Body 1");
+  EXPECT_EQ(labels[1]["label"], "heart");
+  EXPECT_TRUE(labels[0]["is_skin"]);
+  EXPECT_FALSE(labels[1]["is_skin"]);
+  EXPECT_NEAR(labels[0]["volume"].get<double>(), 27, 1e-5);
+  EXPECT_NEAR(labels[0]["area"].get<double>(), 54, 1e-5);
+  EXPECT_NEAR(labels[1]["volume"].get<double>(), 7.0 / 6, 1e-5);  // it ends in a point
+  EXPECT_NEAR(labels[1]["area"].get<double>(), 5 + std::sqrt(2), 1e-5);
+  EXPECT_GE(labels[1]["faces"], 12);
+  EXPECT_EQ(labels[0]["slices"], slices);
+  EXPECT_EQ(labels[1]["slices"], inner_slices);
+  EXPECT_THAT(labels[0]["colour"].get<std::string>(), MatchesRegex("#[0-9a-f]+"));
+  EXPECT_NE(labels[0]["colour"], labels[1]["colour"]);
+}
+
+TEST(View, TellsOfTheLabelsOfAFile) {
+  const Folder folder;
+  std::ofstream(folder / "cubes.ndjson") << two_cubes();
+  ASSERT_EQ(run(folder, "reconstruct cubes.ndjson -o cubes.ply -q").exit_code, 0);
+  Running running(folder, {"view", "cubes.ply", "--port", "0"});
+  const auto client = running.client();
+  const json shown = first_event(*client);
+  EXPECT_EQ(shown["kind"], "file");
+  EXPECT_EQ(shown["name"], "cubes.ply");
+  EXPECT_EQ(shown["is_patient"], false);
+  expect_two_cubes(*client, 0, 0);
+}
+
+TEST(View, TellsOfTheLabelsOfASession) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << two_cubes();
+  ASSERT_EQ(run(folder, "stream --session kept").exit_code, 0);
+  Running running(folder, {"view", "kept", "--port", "0"});
+  const auto client = running.client();
+  const json shown = first_event(*client);
+  EXPECT_EQ(shown["kind"], "session");
+  EXPECT_EQ(shown["name"], "kept");
+  expect_two_cubes(*client, 4, 2);
 }
 
 TEST(View, SaysWhatItCannotShow) {

@@ -15,10 +15,10 @@
 #include <string>
 #include <vector>
 
-#include "io/gltf/label_colour.h"
 #include "io/gltf/shading.h"
 #include "io/gltf/slab_glb.h"
 #include "io/meshes.h"
+#include "io/meshes/label_colour.h"
 #include "io/meshes/seam.h"
 #include "io/surfaces.h"
 #include "reconstruct/defect.h"

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/gltf/meshopt.h"
 #include "io/gltf/replay.h"
 #include "io/gltf/slab_glb.h"
 #include "io/surfaces.h"
@@ -40,6 +41,24 @@ int main() {
   write("fine.glb", {{"", &fine}});
   write("far.glb", {{"", &far}});
   write("leaf.glb", {{"", &leaf}});
+  // Smaller, with lines, transparent, hidden.
+  io::Part organ{"liver", &closed, Colour{0xd0, 0x20, 0x30}, "3", "ORGAN", "plan.dcm", 2};
+  for (const double height : {0.0, 1.0})
+    organ.contours.push_back({height, {{0, 0, height}, {1, 0, height}, {0, 1, height}}});
+  io::Part body{"BODY", &open, {}, "1", "EXTERNAL"};
+  body.is_hidden = true;
+  const auto write_as = [&](const std::string& name, io::Compression compression) {
+    options.compression = compression;
+    write((name + ".glb").c_str(), {organ, body});
+    write((name + ".gltf").c_str(), {organ, body});
+    write((name + "_fine.glb").c_str(), {{"", &fine}});
+    write((name + "_far.glb").c_str(), {{"", &far}});
+    write((name + "_leaf.glb").c_str(), {{"", &leaf}});
+  };
+  write_as("whole", io::Compression::none);
+  write_as("quantized", io::Compression::quantize);
+  if (io::has_meshopt()) write_as("packed", io::Compression::meshopt);
+  options.compression = io::Compression::none;
   // A slab, and how a stack came about.
   Reconstruction live;
   io::Replay replay(0.001);

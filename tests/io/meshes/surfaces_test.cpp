@@ -10,11 +10,15 @@
 #include <OpenMesh/Core/IO/MeshIO.hh>
 #include <array>
 #include <csignal>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
+#include "io/bytes/zip.h"
+#include "io/meshes/label_colour.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {
@@ -28,7 +32,8 @@ TEST(Surfaces, TheSameSurfacesGiveTheSameBytes) {
   const Folder folder;
   const Surface surface = prism(9, {1, 2, 3});
   const std::vector<Part> parts{{"one", &surface}, {"two", &surface}};
-  for (const std::string extension : {".glb", ".gltf", ".ply", ".obj", ".stl", ".off"}) {
+  for (const std::string extension : {".glb", ".gltf", ".ply", ".obj", ".stl", ".off", ".3mf"}) {
+    if (extension == ".3mf" && !has_zip()) continue;
     write(folder / ("a" + extension), parts);
     write(folder / ("b" + extension), parts);
     EXPECT_EQ(testing::content(folder / ("a" + extension)),
@@ -40,7 +45,7 @@ TEST(Surfaces, AnUnknownExtensionNamesTheKnownOnes) {
   const Folder folder;
   const auto path = folder / "a.vtk";
   const std::string message =
-      path.string() + ": unknown extension '.vtk'; known are .glb .gltf .ply .obj .stl .off";
+      path.string() + ": unknown extension '.vtk'; known are .glb .gltf .ply .obj .stl .off .3mf";
   EXPECT_EQ(message_of<UnknownFormat>([&] { write(path, {}); }), message);
   EXPECT_EQ(message_of<UnknownFormat>([&] { check_writable(path); }), message);
 }
@@ -66,6 +71,66 @@ TEST(Surfaces, AFileThatCannotBeWrittenKeepsTheOldOne) {
   EXPECT_NE(message_of<Error>([&] { write(path, {}); }), "nothing");  // no part: glTF needs one
   EXPECT_EQ(testing::content(path), "old");
   EXPECT_EQ(folder.size(), 1U);
+}
+
+/// The lines of a text that begin so.
+std::vector<std::string> lines_with(const std::string& text, const std::string& begin) {
+  std::vector<std::string> found;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);)
+    if (line.starts_with(begin)) found.push_back(line);
+  return found;
+}
+
+using Lines = std::vector<std::string>;
+
+TEST(Obj, NamesMaterialsInAFileBesideIt) {
+  const Folder folder;
+  const Surface surface = prism(3);
+  const std::vector<Part> parts{{"lung left", &surface, Colour{0xff, 0, 0x80}},
+                                {"lung_left", &surface},
+                                {"BODY", &surface, {}, {}, "EXTERNAL"}};
+  write(folder / "a.obj", parts);
+  const std::string obj = testing::content(folder / "a.obj");
+  const std::string mtl = testing::content(folder / "a.mtl");
+  EXPECT_EQ(lines_with(obj, "mtllib"), Lines{"mtllib a.mtl"});
+  EXPECT_EQ(lines_with(obj, "usemtl"),
+            (Lines{"usemtl lung_left", "usemtl lung_left_2", "usemtl BODY"}));
+  EXPECT_EQ(lines_with(obj, "o "), (Lines{"o lung left", "o lung_left", "o BODY"}));
+  EXPECT_EQ(lines_with(mtl, "newmtl"),
+            (Lines{"newmtl lung_left", "newmtl lung_left_2", "newmtl BODY"}));
+  EXPECT_EQ(lines_with(mtl, "Kd")[0], "Kd 1 0 0.502");
+  EXPECT_EQ(lines_with(mtl, "d "), (Lines{"d 1", "d 1", "d 0.25"}));
+  EXPECT_EQ(folder.size(), 2U);
+}
+
+TEST(Obj, WithoutLabelsOrColoursHasNoMaterials) {
+  const Folder folder;
+  const Surface surface = prism(3);
+  const Part part{"", &surface};
+  write(folder / "a.obj", {&part, 1});
+  EXPECT_EQ(folder.size(), 1U);
+  EXPECT_EQ(lines_with(testing::content(folder / "a.obj"), "mtllib"), Lines{});
+}
+
+TEST(Obj, MaterialsHaveNamesWithoutBlanksThatStayApart) {
+  const Folder folder;
+  const Surface surface = prism(3);
+  const Part part{"x", &surface};
+  std::set<std::string> names;
+  for (const char* name : {"a b.obj", "a_b.obj", "a\tb.obj"}) {
+    write(folder / name, {&part, 1});
+    const auto line = lines_with(testing::content(folder / name), "mtllib ").at(0).substr(7);
+    EXPECT_EQ(line.find_first_of(" \t"), std::string::npos) << line;
+    EXPECT_TRUE(std::filesystem::exists(folder / line));
+    names.insert(line);
+  }
+  EXPECT_EQ(names.size(), 3U);
+}
+
+TEST(ThreeMf, NeedsFaces) {
+  std::ostringstream out;
+  EXPECT_THROW(write(out, ".3mf", {}), Error);
 }
 
 TEST(AtomicFile, AppearsOnlyWhenItIsComplete) {
@@ -179,6 +244,22 @@ TEST(Ply, CarriesProvenanceAndLabels) {
         "property list uchar int vertex_indices\nproperty uchar kind\nproperty int slab\n"}) {
     EXPECT_NE(text.find(line), std::string::npos) << line;
   }
+}
+
+TEST(Ply, HasTheColoursOfItsLabels) {
+  const Folder folder;
+  const Surface surface = prism(3);
+  const std::vector<Part> parts{{"a", &surface, Colour{1, 2, 3}}, {"b", &surface}};
+  write(folder / "a.ply", parts);
+  Surface read;
+  read.request_vertex_colors();
+  OpenMesh::IO::Options wanted(OpenMesh::IO::Options::VertexColor);
+  ASSERT_TRUE(OpenMesh::IO::read_mesh(read, (folder / "a.ply").string(), wanted));
+  ASSERT_TRUE(wanted.vertex_has_color());
+  EXPECT_EQ(read.color(Surface::VertexHandle(0)), Surface::Color(1, 2, 3));
+  const Colour other = colour_of(parts[1]);
+  EXPECT_EQ(read.color(Surface::VertexHandle(6)),
+            Surface::Color(other.red, other.green, other.blue));
 }
 
 TEST(Ply, IsReadByOpenMesh) {

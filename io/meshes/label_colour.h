@@ -2,9 +2,10 @@
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
-#include "reconstruct/stack.h"
+#include "io/meshes/part.h"
 
 namespace loft::io {
 
@@ -14,7 +15,14 @@ namespace loft::io {
 /// bone. Characters that some formats cannot hold count as what stands for them there.
 [[nodiscard]] std::array<double, 3> label_colour(std::string_view label);
 
-/// A colour of sRGB as a linear one (IEC 61966-2-1).
+/// A colour of sRGB as a linear one (IEC 61966-2-1), and back.
 [[nodiscard]] std::array<double, 3> linear(Colour colour);
+[[nodiscard]] Colour srgb(const std::array<double, 3>& linear);
+
+/// As files have it: that of its source, else label_colour().
+[[nodiscard]] Colour colour_of(const Part& part);
+
+/// `#d02030`
+[[nodiscard]] std::string hexadecimal(Colour colour);
 
 }  // namespace loft::io

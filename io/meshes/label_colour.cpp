@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include "io/gltf/label_colour.h"
+#include "io/meshes/label_colour.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +48,29 @@ std::array<double, 3> linear(Colour colour) {
     return share <= 0.04045 ? share / 12.92 : std::pow((share + 0.055) / 1.055, 2.4);
   };
   return {channel(colour.red), channel(colour.green), channel(colour.blue)};
+}
+
+Colour srgb(const std::array<double, 3>& linear) {
+  const auto channel = [](double share) {
+    const double curved =
+        share <= 0.0031308 ? share * 12.92 : 1.055 * std::pow(share, 1 / 2.4) - 0.055;
+    return static_cast<std::uint8_t>(std::round(255 * std::clamp(curved, 0.0, 1.0)));
+  };
+  return {channel(linear[0]), channel(linear[1]), channel(linear[2])};
+}
+
+Colour colour_of(const Part& part) {
+  return part.colour ? *part.colour : srgb(label_colour(part.label));
+}
+
+std::string hexadecimal(Colour colour) {
+  constexpr std::string_view digits = "0123456789abcdef";
+  std::string text = "#";
+  for (const unsigned share : {colour.red, colour.green, colour.blue}) {
+    text += digits[share / 16];
+    text += digits[share % 16];
+  }
+  return text;
 }
 
 }  // namespace loft::io

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "app/json.h"
+#include "mesh/mesh.h"
+
+namespace loft::app {
+
+/// What can be said of a structure that is shown; lengths in the stack's unit.
+struct ShownLabel {
+  std::string label;
+  bool is_skin = false;    ///< encloses the others, so that it would hide them
+  std::size_t slices = 0;  ///< that have contours of it; 0 where that is not known
+  double volume = 0;
+  double area = 0;
+  std::size_t faces = 0;
+};
+
+/// `{"labels":[{"label","colour":"#rrggbb","is_skin","slices","volume","area","faces"}]}`
+[[nodiscard]] Json to_json(std::span<const ShownLabel> labels);
+
+/// The sum of the areas of all faces.
+[[nodiscard]] double area(const Mesh& mesh);
+
+}  // namespace loft::app

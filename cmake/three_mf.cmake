@@ -1,0 +1,20 @@
+# SPDX-License-Identifier: MIT
+# LOFT_3MF: whether io writes 3MF. By default where libzip is found; Debian's CMake package of it
+# asks for programs that are in another one, so that it cannot be used.
+find_path(LOFT_LIBZIP_INCLUDE_DIR zip.h)
+find_library(LOFT_LIBZIP_LIBRARY zip)
+mark_as_advanced(LOFT_LIBZIP_INCLUDE_DIR LOFT_LIBZIP_LIBRARY)
+set(loft_has_libzip OFF)
+if(LOFT_LIBZIP_INCLUDE_DIR AND LOFT_LIBZIP_LIBRARY)
+  set(loft_has_libzip ON)
+endif()
+option(LOFT_3MF "Write 3MF; needs libzip" ${loft_has_libzip})
+if(LOFT_3MF AND NOT loft_has_libzip)
+  message(WARNING "LOFT_3MF is on, but there is no libzip: install libzip-dev")
+  set(LOFT_3MF OFF)
+endif()
+if(LOFT_3MF)
+  message(STATUS "With 3MF, by libzip")
+else()
+  message(STATUS "Without 3MF: libzip-dev is not installed, or LOFT_3MF=OFF")
+endif()
