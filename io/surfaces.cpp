@@ -62,10 +62,10 @@ Written write_as_they_are(const SurfaceWriter& format, std::ostream& out,
   return {rounded.rounding(), options.origin};
 }
 
-/// For readers that make `float` of exact coordinates.
+/// 3MF, whose readers make `float` of its exact coordinates.
 Written write_to_be_rounded(const SurfaceWriter& format, std::ostream& out,
                             std::span<const Part> parts, const WriteOptions& options) {
-  const RoundedParts rounded(parts, {}, false);
+  const RoundedParts rounded(parts, {{}, three_mf_factor(options.metres_per_unit)}, false);
   format.write(out, rounded.parts(), options);
   return {rounded.rounding()};
 }

@@ -143,6 +143,8 @@ std::string model_xml(std::span<const Part> parts, const WriteOptions& options) 
 
 }  // namespace
 
+double three_mf_factor(double metres_per_unit) { return unit_of(metres_per_unit).factor; }
+
 void write_3mf(std::ostream& out, std::span<const Part> parts, const WriteOptions& options) {
   const std::string types = std::string(xml_line) + std::string(content_types);
   const std::string rels = std::string(xml_line) + std::string(relationships);

@@ -15,4 +15,7 @@ namespace loft::io {
 /// Throws Error where no part has faces, and in a build without libzip.
 void write_3mf(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
 
+/// What write_3mf() multiplies coordinates by.
+[[nodiscard]] double three_mf_factor(double metres_per_unit);
+
 }  // namespace loft::io

@@ -3,24 +3,15 @@
 // patient's.
 import { Vector3 } from 'three';
 import { directionToInput } from './cut.js';
+import { lettersOf } from './letters.js';
 import { number } from './text.js';
 
 const longest = 140;  // pixels of the bar
-const clear = 0.4;    // a direction's share from which on its letter is told
 
 // The largest of 1, 2 or 5 times a power of ten that is not more.
 export function roundDown(length) {
   const power = 10 ** Math.floor(Math.log10(length));
   return power * [5, 2, 1].find((factor) => factor * power <= length * (1 + 1e-12));
-}
-
-// Where a direction (x, y, z) points in a patient: left is +x, posterior +y, superior +z; the
-// letter of its largest share first.
-export function lettersOf(direction) {
-  const names = [['L', 'R'], ['P', 'A'], ['S', 'I']];
-  const shares = direction.map((value, axis) => ({ size: Math.abs(value), name: names[axis][value < 0 ? 1 : 0] }));
-  return shares.filter(({ size }) => size > clear).sort((a, b) => b.size - a.size)
-    .map(({ name }) => name).join('');
 }
 
 export class Overlay {
