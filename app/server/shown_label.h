@@ -5,7 +5,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 
 #include "app/json.h"
 #include "mesh/mesh.h"
@@ -17,7 +16,7 @@ namespace loft::app {
 struct ShownLabel {
   std::string label;
   std::optional<Colour> colour = {};  ///< that its source gives it; none: by its name
-  bool is_skin = false;               ///< encloses the others, so that it would hide them
+  bool is_skin = false;               ///< see io::is_skin()
   std::size_t slices = 0;             ///< that have contours of it; 0 where that is not known
   double volume = 0;
   double area = 0;
