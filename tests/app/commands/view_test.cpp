@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -23,6 +24,7 @@ using namespace testing;
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
+using ::testing::Not;
 
 std::string tower(int count) {
   std::string lines;
@@ -233,6 +235,75 @@ TEST(View, TellsOfTheLabelsOfASession) {
   EXPECT_EQ(shown["kind"], "session");
   EXPECT_EQ(shown["name"], "kept");
   expect_two_cubes(*client, 4, 2);
+}
+
+TEST(View, ShowsTheContoursThatAPlyKnows) {
+  const Folder folder;
+  std::ofstream(folder / "cubes.ndjson") << two_cubes();
+  ASSERT_EQ(run(folder, "reconstruct cubes.ndjson -o cubes.ply -o cubes.stl -q").exit_code, 0);
+  Running running(folder, {"view", "cubes.ply", "--port", "0"});
+  const auto client = running.client();
+  EXPECT_EQ(first_event(*client)["slices"], json::array({0.0, 1.0, 2.0, 3.0}));
+  const json slice = json::parse(client->Get("/slices?z=1")->body);
+  EXPECT_EQ(slice["labels"], json::array({"Body 1", "heart"}));
+  EXPECT_EQ(slice["contours"][1], json::parse("[[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]]"));
+  EXPECT_EQ(client->Get("/slices?z=1.5")->status, 404);
+  Running without(folder, {"view", "cubes.stl", "--port", "0"});
+  EXPECT_EQ(first_event(*without.client())["slices"], json::array());
+}
+
+TEST(View, ShowsAStackBeforeThereIsASurface) {
+  const Folder folder;
+  std::ofstream(folder / "cubes.ndjson") << R"({"stack": {"unit": "cm"}})" << '\n' << two_cubes();
+  Running running(folder, {"view", "cubes.ndjson", "--port", "0"});
+  const auto client = running.client();
+  const json shown = first_event(*client);
+  EXPECT_EQ(shown["kind"], "file");
+  EXPECT_EQ(shown["unit"], "cm");
+  EXPECT_EQ(shown["slices"], json::array({0.0, 1.0, 2.0, 3.0}));
+  EXPECT_EQ(shown["slabs"], json::array());
+  EXPECT_EQ(shown["downloads"], json::array());
+  EXPECT_EQ(json::parse(client->Get("/slices?z=1")->body)["contours"].size(), 2U);
+  const json labels = json::parse(client->Get("/labels")->body)["labels"];
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_EQ(labels[1]["slices"], 2);
+  EXPECT_EQ(client->Get("/surface.glb")->status, 404);
+  EXPECT_EQ(client->Get("/slabs?ids=0-0..9")->status, 404);
+  EXPECT_EQ(client->Get("/history")->status, 404);
+}
+
+/// What is between two marks of a file.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const std::size_t begin = text.find(before) + before.size();
+  return text.substr(begin, text.find(after, begin) - begin);
+}
+
+TEST(View, ExportsAPageThatNeedsNoServer) {
+  const Folder folder;
+  std::ofstream(folder / "cubes.ndjson") << two_cubes();
+  ASSERT_EQ(run(folder, "reconstruct cubes.ndjson -o cubes.glb -o cubes.ply -q").exit_code, 0);
+  const Outcome exported = run(folder, "view cubes.glb --export page");
+  if (exported.err.find("built without its viewer") != std::string::npos) GTEST_SKIP();
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  EXPECT_EQ(content(folder / "page/surface.glb"), content(folder / "cubes.glb"));
+  EXPECT_EQ(json::parse(content(folder / "page/labels.json"))["labels"].size(), 2U);
+  const std::string page = content(folder / "page/index.html");
+  EXPECT_THAT(page, Not(HasSubstr("module")));
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  const json contents =
+      json::parse(between(content(folder / "page/contents.js"), "loftContents(", ");\n"));
+  EXPECT_EQ(contents["slabs"].size(), 2U);
+  EXPECT_EQ(contents["reset"]["name"], "cubes.glb");
+  EXPECT_EQ(contents["slabs"][0].get<std::string>().substr(0, 5), "Z2xUR");  // glTF
+
+  const Outcome refused = run(folder, "view cubes.ply --export page");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("page is not empty"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "page/surface.ply"));
+  EXPECT_EQ(run(folder, "view cubes.ply --export page --force").exit_code, 0);
+  EXPECT_EQ(content(folder / "page/surface.ply"), content(folder / "cubes.ply"));
+  EXPECT_EQ(run(folder, "view cubes.ply --export cubes.glb").exit_code, 2);
+  EXPECT_EQ(run(folder, "view cubes.ndjson --export contours").exit_code, 0);
 }
 
 TEST(View, SaysWhatItCannotShow) {
