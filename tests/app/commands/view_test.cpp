@@ -116,7 +116,8 @@ std::size_t bundled_face_count(const Folder& folder, httplib::Client& client) {
     return std::stoi(slab["id"].get<std::string>().substr(2));
   };
   std::set<int> missing;
-  for (const json& slab : first_event(client)["slabs"]) missing.insert(number(slab));
+  const json shown = first_event(client);
+  for (const json& slab : shown["slabs"]) missing.insert(number(slab));
   std::size_t count = 0;
   while (!missing.empty()) {
     const auto answer = client.Get("/slabs?ids=0-" + std::to_string(*missing.begin()) + ".." +
@@ -222,7 +223,7 @@ TEST(View, TellsOfTheLabelsOfAFile) {
   EXPECT_EQ(shown["kind"], "file");
   EXPECT_EQ(shown["name"], "cubes.ply");
   EXPECT_EQ(shown["is_patient"], false);
-  expect_two_cubes(*client, 0, 0);
+  expect_two_cubes(*client, 4, 2);
 }
 
 TEST(View, TellsOfTheLabelsOfASession) {
@@ -240,7 +241,7 @@ TEST(View, TellsOfTheLabelsOfASession) {
 TEST(View, ShowsTheContoursThatAPlyKnows) {
   const Folder folder;
   std::ofstream(folder / "cubes.ndjson") << two_cubes();
-  ASSERT_EQ(run(folder, "reconstruct cubes.ndjson -o cubes.ply -o cubes.stl -q").exit_code, 0);
+  ASSERT_EQ(run(folder, "reconstruct cubes.ndjson -o cubes.ply -o cubes.obj -q").exit_code, 0);
   Running running(folder, {"view", "cubes.ply", "--port", "0"});
   const auto client = running.client();
   EXPECT_EQ(first_event(*client)["slices"], json::array({0.0, 1.0, 2.0, 3.0}));
@@ -248,7 +249,7 @@ TEST(View, ShowsTheContoursThatAPlyKnows) {
   EXPECT_EQ(slice["labels"], json::array({"Body 1", "heart"}));
   EXPECT_EQ(slice["contours"][1], json::parse("[[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]]"));
   EXPECT_EQ(client->Get("/slices?z=1.5")->status, 404);
-  Running without(folder, {"view", "cubes.stl", "--port", "0"});
+  Running without(folder, {"view", "cubes.obj", "--port", "0"});
   EXPECT_EQ(first_event(*without.client())["slices"], json::array());
 }
 
