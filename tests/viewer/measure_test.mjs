@@ -91,6 +91,24 @@ test('measures are removed by a button and by a key', async () => {
   assert.equal(await count(), before - 2);
 });
 
+test('at the borders stands where they are in a patient', async () => {
+  const letters = () => viewer.page.locator('#letters span').allInnerTexts();
+  assert.ok((await letters()).every((letter) => letter === ''));
+  await viewer.page.addInitScript(() => {
+    const parse = JSON.parse;
+    JSON.parse = (text) => {
+      const value = parse(text);
+      return value?.metres_per_unit === undefined ? value : { ...value, is_patient: true };
+    };
+  });
+  await viewer.page.reload();
+  await viewer.waitForSlabs(2);
+  await press('2');
+  assert.deepEqual(await letters(), ['L', 'R', 'S', 'I']);
+  await press('Shift+1');
+  assert.deepEqual(await letters(), ['A', 'P', 'S', 'I']);
+});
+
 test('a picture is a PNG of one, two or four times the canvas', async () => {
   const { width, height } = await viewer.page.locator('#canvas').boundingBox();
   await viewer.page.locator('#picture-size').selectOption('2');

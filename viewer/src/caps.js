@@ -118,7 +118,7 @@ function painting() {
           if (at(pixel + ivec2(i, 0)) != sum) borders += 1.0;
           if (at(pixel + ivec2(0, i)) != sum) borders += 1.0;
         }
-        float light = mix(0.8, 1.0, abs(dot(normalize(across), normalize(toEye))));
+        float light = mix(0.88, 1.0, abs(dot(normalize(across), normalize(toEye))));
         float ink = 1.0 - 0.35 * min(borders, 1.0);
         colour = vec4(light * ink * seen.rgb / seen.a, seen.a);
       }` });
