@@ -15,7 +15,8 @@ before(async () => {
   browser = await startBrowser();
   loft = await Loft.start('stream', '--no-input', '--view', '--port', '0');
   await loft.post(square(0, 5), square(4, 5), square(8, 5));
-  viewer = await Viewer.open(browser, loft.url);
+  // The view stands still between clicks.
+  viewer = await Viewer.open(browser, loft.url, { reducedMotion: 'reduce' });
   await viewer.waitForSlabs(2);
 });
 after(async () => {
