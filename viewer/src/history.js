@@ -12,7 +12,7 @@ export class History {
   #timer;
   #isThere = true;  // until the server says that it has none
   #unit = '';
-  #canLookBack = false;
+  #name;  // of the session, if there is one
 
   constructor() {
     this.#list = new List(element('history'), (row, edit) => this.#draw(row, edit),
@@ -25,8 +25,10 @@ export class History {
   redo() { return this.#go('redo'); }
 
   // Another surface: in a capture there are `edits`.
-  reset({ edits }, unit) {
+  reset({ edits, name }, unit) {
     this.#unit = unit;
+    this.#name = name;
+    element('history-then').textContent = '';
     this.#isThere = edits !== undefined;
     element('history-section').hidden = true;
     this.look();
@@ -46,12 +48,11 @@ export class History {
     if (history) this.#show(history);
   }
 
-  #show({ edits, can_undo: canUndo, can_redo: canRedo, can_look_back: canLookBack = false }) {
+  #show({ edits, can_undo: canUndo, can_redo: canRedo }) {
     element('history-section').hidden = false;
     element('undo').disabled = !canUndo;
     element('redo').disabled = !canRedo;
     element('history-count').textContent = count(edits.length);
-    this.#canLookBack = canLookBack;
     this.#list.show([...edits].reverse());
   }
 
@@ -68,11 +69,9 @@ export class History {
     if (row.textContent !== words) row.textContent = words;
   }
 
-  // The surface as it was after that edit, as a file.
+  // How to look at the surface as it was after that edit.
   #choose({ number }) {
-    const link = element('history-then');
-    link.hidden = !this.#canLookBack;
-    link.href = `surface.glb?at=${number}`;
-    link.textContent = `Surface after edit ${count(number)}`;
+    if (this.#name)
+      element('history-then').textContent = `What there was then: loft view ${this.#name} --at ${number}`;
   }
 }
