@@ -12,7 +12,8 @@ export class History {
   #timer;
   #isThere = true;  // until the server says that it has none
   #unit = '';
-  #name;  // of the session, if there is one
+  #name;  // of the file
+  #isKept = false;  // it is a session
 
   constructor() {
     this.#list = new List(element('history'), (row, edit) => this.#draw(row, edit),
@@ -25,13 +26,19 @@ export class History {
   redo() { return this.#go('redo'); }
 
   // Another surface: in a capture there are `edits`.
-  reset({ edits, name }, unit) {
+  reset({ edits, name, kind }, unit) {
     this.#unit = unit;
     this.#name = name;
+    this.#isKept = kind === 'session';
     element('history-then').textContent = '';
     this.#isThere = edits !== undefined;
     element('history-section').hidden = true;
     this.look();
+  }
+
+  // What the server says of itself: whether a capture is kept in a session.
+  showStatus({ session }) {
+    this.#isKept ||= session === true;
   }
 
   // Edits were made: has a look at the history soon, however many come.
@@ -71,7 +78,7 @@ export class History {
 
   // How to look at the surface as it was after that edit.
   #choose({ number }) {
-    if (this.#name)
+    if (this.#isKept && this.#name)
       element('history-then').textContent = `What there was then: loft view ${this.#name} --at ${number}`;
   }
 }
