@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "app/server/shown_label.h"
 
-#include <cmath>
-
 #include "io/meshes/label_colour.h"
+#include "mesh/vec3.h"
 
 namespace loft::app {
 
@@ -30,13 +29,8 @@ Json to_json(std::span<const ShownLabel> labels) {
 double area(const Mesh& mesh) {
   double sum = 0;
   for (const auto& [i, j, k] : mesh.faces) {
-    const Vec3& a = mesh.points[i];
-    const Vec3& b = mesh.points[j];
-    const Vec3& c = mesh.points[k];
-    const Vec3 u{b[0] - a[0], b[1] - a[1], b[2] - a[2]};
-    const Vec3 v{c[0] - a[0], c[1] - a[1], c[2] - a[2]};
-    sum +=
-        std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]);
+    const Vec3& origin = mesh.points[i];
+    sum += length(cross(minus(mesh.points[j], origin), minus(mesh.points[k], origin)));
   }
   return sum / 2;
 }

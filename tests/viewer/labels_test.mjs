@@ -122,7 +122,7 @@ test('colour and opacity are chosen, and taken back', async () => {
   await viewer.page.locator('#labels').focus();
   await viewer.page.keyboard.press('Home');
   await viewer.waitForText('label-name', 'BODY');
-  assert.equal(await viewer.text('label-percent'), '20 %');
+  assert.equal(await viewer.text('label-percent'), '25 %');
   const before = await viewer.picture();
   await viewer.page.locator('#label-opacity').focus();
   const solid = await press('End', before);

@@ -270,6 +270,22 @@ test('dark and light: as the system has it, and by the button', async () => {
   assert.ok(await corner() > 160);
 });
 
+test('after a resume there is no latency until an edit comes', async () => {
+  await loft.post(square(0, 5), square(4, 5));
+  await viewer.waitForSlabs(1);
+  assert.match(await viewer.text('latency'), / ms$/);
+  await viewer.close();
+  await loft.end('SIGINT');
+  loft = await stream();
+  viewer = await Viewer.open(browser, loft.url);
+  await viewer.waitForSlabs(1);
+  await viewer.waitForText('state', 'Live');
+  assert.equal(await viewer.text('latency'), '–');
+  await loft.post(square(8, 5));
+  await viewer.waitForSlabs(2);
+  assert.match(await viewer.text('latency'), / ms$/);
+});
+
 test('a file is shown in the same page', async () => {
   await loft.post(square(0, 5), square(4, 5));
   await viewer.close();
@@ -277,6 +293,8 @@ test('a file is shown in the same page', async () => {
   loft = await Loft.start('view', join(folder, 'session'), '--port', '0');
   viewer = await Viewer.open(browser, loft.url);
   await viewer.waitForSlabs(1);
+  await viewer.waitForText('state', 'Recorded');
+  assert.equal(await viewer.page.title(), 'session – Loft');
   assert.equal(await viewer.number('volume'), 400);
   assert.equal(await isSurfaceInTheMiddle(), true);
 });

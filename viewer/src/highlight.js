@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// What is pointed at: a slice or a contour as broad lines, a point as a dot; over everything else.
+// What is pointed at: a slice or a contour as broad lines, a point as a dot; over everything else,
+// unless it is told to be hidden by what is nearer.
 import { Group, Mesh, MeshBasicMaterial, SphereGeometry } from 'three';
 import { LineMaterial } from 'three/addons/lines/LineMaterial.js';
 import { LineSegments2 } from 'three/addons/lines/LineSegments2.js';
@@ -10,8 +11,8 @@ export class Highlight {
   #lines;
   #dot;
 
-  constructor(scene, width) {
-    const over = { depthTest: false, depthWrite: false, transparent: true };
+  constructor(scene, width, { isHidden = false } = {}) {
+    const over = { depthTest: isHidden, depthWrite: false, transparent: true };
     const broad = new LineMaterial({ linewidth: width, ...over });
     this.#lines = new LineSegments2(new LineSegmentsGeometry(), broad);
     this.#dot = new Mesh(new SphereGeometry(1, 24, 16), new MeshBasicMaterial(over));
@@ -38,16 +39,14 @@ export class Highlight {
     this.#lines.geometry = new LineSegmentsGeometry().setPositions(numbers);
   }
 
-  showPoint(place, camera, height) {
+  showPoint(place, stage) {
     this.#dot.visible = place !== undefined;
     if (place) this.#dot.position.copy(place);
-    this.keepSize(camera, height);
+    this.keepSize(stage);
   }
 
   // The dot is five pixels in radius wherever it is.
-  keepSize(camera, height) {
-    if (!this.#dot.visible) return;
-    const distance = camera.position.distanceTo(this.#dot.position);
-    this.#dot.scale.setScalar(10 * distance * Math.tan((camera.fov * Math.PI) / 360) / height);
+  keepSize(stage) {
+    if (this.#dot.visible) this.#dot.scale.setScalar(5 * stage.unitsPerPixel(this.#dot.position));
   }
 }

@@ -17,12 +17,6 @@ function takesArrows(target) {
   return takesLetters(target) || target.type === 'range';
 }
 
-// As `actions` have it: `ctrl+shift+z`.
-function nameOf({ key, ctrlKey, metaKey, shiftKey }) {
-  const isCommand = ctrlKey || metaKey;
-  return `${isCommand ? 'ctrl+' : ''}${isCommand && shiftKey ? 'shift+' : ''}${key.toLowerCase()}`;
-}
-
 function move(controls, event) {
   const step = 40;
   const ways = { ArrowLeft: [1, 0], ArrowRight: [-1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1] };
@@ -36,7 +30,14 @@ function move(controls, event) {
   }
 }
 
-// `actions`: what to do, by key.
+// Digits by their keys: with Shift they are other characters.
+function nameOf({ key, code, ctrlKey, metaKey, shiftKey }) {
+  const name = /^Digit\d$/.test(code) ? code.at(-1) : key.toLowerCase();
+  const isShifted = shiftKey && /^[a-z\d]$/.test(name);
+  return `${ctrlKey || metaKey ? 'ctrl+' : ''}${isShifted ? 'shift+' : ''}${name}`;
+}
+
+// `actions`: what to do, by key ('x', 'shift+x', 'ctrl+shift+z').
 export function listenToKeys(stage, actions) {
   addEventListener('keydown', (event) => {
     if (event.altKey || document.querySelector('dialog[open]')) return;

@@ -2,10 +2,11 @@
 // How each label is to be shown: whether at all, its colour, its opacity. Skins, which go around
 // all the rest, start transparent: what is in them is what people look for.
 
-const skinOpacity = 0.2;
+const skinOpacity = 0.25;
 const skinNames = new Set(['external', 'body', 'skin']);
-// What may stand beside them; a vertebral body is no skin.
-const skinCompany = new Set(['contour', 'outline', 'outer', 'patient', 'roi', 'surface', 'whole']);
+// What may stand beside them, as in io/meshes/skin.h; a vertebral body is no skin.
+const skinCompany = new Set(['contour', 'contours', 'outer', 'outline', 'patient', 'surface', 'the',
+                             'whole', 'roi']);
 const { compare } = new Intl.Collator('en', { numeric: true });
 
 export function soundsLikeSkin(name) {

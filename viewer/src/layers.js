@@ -10,6 +10,8 @@ function clearOf(material) {
   clear.transparent = true;
   clear.depthWrite = false;
   clear.forceSinglePass = true;  // back and front of a skin have the same colour
+  // Where a skin and what is in it lie in one plane the latter is seen.
+  clear.polygonOffsetFactor = clear.polygonOffsetUnits = 2;
   return clear;
 }
 
@@ -58,6 +60,24 @@ export class Layers {
   flush() {
     this.#solid.flush();
     this.#clear.flush();
+  }
+
+  // Where it is drawn.
+  placeOf({ batch, place }) {
+    return { mesh: batch.mesh, instance: place.instance };
+  }
+
+  // A function that says whose a hit of the raycaster is.
+  labelling() {
+    const labels = new Map(this.meshes.map((mesh) => [mesh, new Map()]));
+    for (const [label, { slots }] of this.#groups)
+      for (const { batch, place } of slots) labels.get(batch.mesh).set(place.instance, label);
+    return ({ object, batchId }) => labels.get(object).get(batchId);
+  }
+
+  // What add() was given of a label.
+  contentsOf(label) {
+    return [...(this.#groups.get(label)?.slots ?? [])].map(({ batch, place }) => batch.contentOf(place));
   }
 
   setColour(slot, colour) {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: MIT
+import { lookAlong } from './axis_views.js';
+import { CutControls } from './cut_controls.js';
 import { Drawer } from './drawer.js';
 import { Events } from './events.js';
 import { Figures } from './figures.js';
@@ -7,8 +9,11 @@ import { History } from './history.js';
 import { listenToKeys } from './keys.js';
 import { LabelList } from './label_list.js';
 import { Labels } from './labels.js';
+import { Measuring } from './measuring.js';
+import { Overlay } from './overlay.js';
 import { Panel } from './panel.js';
 import { onClick } from './pick.js';
+import { savePicture } from './screenshot.js';
 import { Settings } from './settings.js';
 import { Table } from './table.js';
 import { Theme } from './theme.js';
@@ -19,6 +24,7 @@ const element = (id) => document.getElementById(id);
 const panel = new Panel();
 const theme = new Theme();
 const settings = new Settings();
+const cut = new CutControls();
 const events = new Events();
 const figures = new Figures();
 const history = new History();
@@ -27,6 +33,8 @@ const labels = new Labels();
 const labelList = new LabelList(labels);
 const table = new Table(figures, labels);
 const view = makeView();
+const measuring = view && new Measuring(view, element('figures'));
+const overlay = new Overlay();
 
 // None where the browser has no WebGL.
 function makeView() {
@@ -42,6 +50,7 @@ function makeView() {
 function applyTheme() {
   view.setColours({ background: theme.colour('stage'), grid: theme.colour('grid'),
                     lines: theme.colour('contour'), accent: theme.colour('accent') });
+  measuring.colour = theme.colour('accent');
   element('theme').setAttribute('aria-pressed', String(theme.isDark));
 }
 
@@ -81,21 +90,28 @@ function showCounts() {
   });
 }
 
+function setHeights() {
+  settings.setHeights(view.heights, view.unit);
+  cut.setHeights(view.heights, view.range, view.unit);
+}
+
 function showSurface() {
   events.addEventListener('reset', ({ detail }) => {
     view.reset(detail);
-    settings.setHeights(view.heights, view.range, view.unit);
+    overlay.isPatient = detail.is_patient === true;
+    setHeights();
     view.apply(settings);
   });
   events.addEventListener('change', ({ detail }) => {
     panel.addLatency(detail.latency_ms);
     if (!view.change(detail)) return events.restart();  // something was missed
-    settings.setHeights(view.heights, view.range, view.unit);
+    setHeights();
     view.apply(settings);
   });
 }
 
 async function pick(x, y) {
+  if (measuring.isOn) return measuring.add(x, y);
   const nearest = await view.pick(x, y);
   if (nearest) settings.choose(nearest.slice.z);
   view.apply(settings);
@@ -107,13 +123,36 @@ async function showFiguresOf(label) {
   if (found) panel.addFigures(label, found, figures.measure);
 }
 
-function forgetPick() {
+function savePng() {
+  const words = document.querySelectorAll('#lengths span, #figures span, #letters span, #scale span');
+  return savePicture(view.stage, Number(element('picture-size').value),
+                     { words, bar: element('scale') }, 'surface.png');
+}
+
+function toggleParallel() {
+  view.stage.toggleParallel();
+  element('parallel').setAttribute('aria-pressed', String(view.stage.isParallel));
+}
+
+function connectPicture() {
+  view.stage.onFrame(() => overlay.follow(view.stage, view.frame, view.unit));
+  element('parallel').addEventListener('click', toggleParallel);
+  element('picture').addEventListener('click', savePng);
+}
+
+function forget() {
+  measuring.drop();
   view.forgetPick();
   labels.choose(undefined);
 }
 
 function connectControls() {
+  connectPicture();
   settings.addEventListener('change', () => view.apply(settings));
+  view.cut.control(cut);
+  for (const axis of ['x', 'y', 'z'])
+    element(`cut-${axis}`).addEventListener('click', () => view.cut.cutAcross(axis));
+  element('cut-view').addEventListener('click', () => view.cut.faceEye());
   theme.addEventListener('change', applyTheme);
   element('fit').addEventListener('click', () => view.fit());
   element('theme').addEventListener('click', () => theme.toggle());
@@ -123,9 +162,29 @@ function connectControls() {
     f: () => view.fit(),
     c: () => settings.toggle('contours'),
     s: () => settings.reach('slice'),
-    x: () => settings.reach('cut'),
-    v: () => settings.toggle('cut-below'),
+    x: () => cut.reach(),
+    'shift+x': () => view.cut.cutAcross('x'),
+    'shift+y': () => view.cut.cutAcross('y'),
+    'shift+z': () => view.cut.cutAcross('z'),
+    n: () => view.cut.faceEye(),
+    ',': () => cut.step(false),
+    '.': () => cut.step(true),
+    v: () => cut.toggle('cut-below'),
+    b: () => cut.toggle('cut-slab'),
     l: () => settings.nextColour(),
+    m: () => measuring.toggle(),
+    'shift+m': () => measuring.nextKind(),
+    backspace: () => measuring.removeLast(),
+    delete: () => measuring.removeLast(),
+    1: () => lookAlong(view.stage, 'x'),
+    2: () => lookAlong(view.stage, 'y'),
+    3: () => lookAlong(view.stage, 'z'),
+    'shift+1': () => lookAlong(view.stage, 'x', true),
+    'shift+2': () => lookAlong(view.stage, 'y', true),
+    'shift+3': () => lookAlong(view.stage, 'z', true),
+    5: toggleParallel,
+    o: toggleParallel,
+    'shift+p': savePng,
     p: () => pick(0, 0),
     t: () => theme.toggle(),
     '?': help,
@@ -135,7 +194,7 @@ function connectControls() {
     g: () => table.open(),
     'ctrl+z': () => history.undo(),
     'ctrl+shift+z': () => history.redo(),
-    escape: forgetPick,
+    escape: forget,
   });
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: MIT
-// Renderer, camera, light; a frame is drawn only when something has changed.
+// Renderer, cameras, light; a frame is drawn only when something has changed.
 import { Color, DirectionalLight, DoubleSide, HemisphereLight, MeshStandardMaterial,
-         PerspectiveCamera, Plane, Scene, Sphere, Vector3, WebGLRenderer } from 'three';
+         Scene, Sphere, Vector3, WebGLRenderer } from 'three';
 import { OrbitControls } from 'three/addons/controls/OrbitControls.js';
+import { Cameras } from './cameras.js';
+
+export const handleLayer = 1;
 
 const isStill = matchMedia('(prefers-reduced-motion: reduce)');
 
@@ -19,6 +22,10 @@ export class Stage {
   #isStale = false;
   #beforeFrame = [];
   #afterResize = () => {};
+  #cameras = new Cameras();
+  #cuts = [];      // of surfaces
+  #lineCuts = [];  // of the lines on them
+  #size = 1;       // of all there is
 
   constructor(canvas) {
     this.canvas = canvas;
@@ -26,20 +33,34 @@ export class Stage {
                                         powerPreference: 'high-performance' });
     this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
     this.scene = new Scene();
-    this.camera = new PerspectiveCamera(35, 1, 0.01, 1000);
-    this.camera.position.set(6, 5, 9);
-    this.material = new MeshStandardMaterial({ roughness: 0.62, metalness: 0, side: DoubleSide,
-      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1 });
-    this.material.onBeforeCompile = showInside;
-    this.cut = new Plane(new Vector3(0, -1, 0), 0);
+    this.material = this.makeMaterial();
     this.controls = new OrbitControls(this.camera, canvas);
     this.controls.enableDamping = !isStill.matches;
     this.controls.dampingFactor = 0.12;
     this.controls.addEventListener('change', () => this.invalidate());
     this.#light();
+    this.hasHandles = true;
     canvas.addEventListener('webglcontextrestored', () => this.invalidate());
     new ResizeObserver(() => this.#resize()).observe(canvas.parentElement);
     this.#resize();
+  }
+
+  // Perspective or parallel.
+  get camera() { return this.#cameras.current; }
+  get isParallel() { return this.camera.isOrthographicCamera === true; }
+
+  // Whether what things are dragged by is drawn: it is on a layer of its own.
+  set hasHandles(areShown) {
+    for (const camera of this.#cameras.all)
+      camera.layers[areShown ? 'enable' : 'disable'](handleLayer);
+  }
+
+  // Of surfaces.
+  makeMaterial(more = {}) {
+    const material = new MeshStandardMaterial({ roughness: 0.62, metalness: 0, side: DoubleSide,
+      polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, ...more });
+    material.onBeforeCompile = showInside;
+    return material;
   }
 
   // after() is called when the canvas has another size.
@@ -50,7 +71,15 @@ export class Stage {
   invalidate() {
     if (this.#isStale) return;
     this.#isStale = true;
-    requestAnimationFrame(() => this.#draw());
+    requestAnimationFrame(() => { if (this.#isStale) this.draw(); });
+  }
+
+  draw() {
+    this.#isStale = false;
+    this.controls.update();
+    this.camera.updateMatrixWorld();
+    for (const before of this.#beforeFrame) before();
+    this.renderer.render(this.scene, this.camera);
   }
 
   set background(colour) {
@@ -58,27 +87,52 @@ export class Stage {
     this.invalidate();
   }
 
-  // Cuts away what lies on the far side of the plane.
-  setCut(materials, isOn) {
-    this.renderer.localClippingEnabled = isOn;
-    for (const material of materials) material.clippingPlanes = isOn ? [this.cut] : null;
+  // Cuts away what lies on the negative side of any of the planes.
+  setCut(planes, linePlanes) {
+    this.renderer.localClippingEnabled = planes.length > 0;
+    this.#cuts = planes;
+    this.#lineCuts = linePlanes;
     this.invalidate();
+  }
+
+  // Makes the cut go through materials.
+  clip(surfaces, lines) {
+    for (const [materials, planes] of [[surfaces, this.#cuts], [lines, this.#lineCuts]])
+      for (const material of materials) material.clippingPlanes = planes.length > 0 ? planes : null;
   }
 
   // Whether the cut leaves a place.
   keeps(place) {
-    return !this.renderer.localClippingEnabled || this.cut.distanceToPoint(place) >= 0;
+    return this.#cuts.every((plane) => plane.distanceToPoint(place) >= 0);
+  }
+
+  // Whether the eye is on the negative side of a plane.
+  isBehind(plane) {
+    return this.toEye(plane.coplanarPoint(new Vector3())).dot(plane.normal) < 0;
+  }
+
+  // From a place towards the eye.
+  toEye(place) {
+    if (this.isParallel) return this.camera.getWorldDirection(new Vector3()).negate();
+    return this.camera.position.clone().sub(place);
+  }
+
+  // How long a pixel of the page is at a place.
+  unitsPerPixel(place) {
+    return this.#cameras.heightAt(place) / this.canvas.clientHeight;
+  }
+
+  // Where a place is on the canvas, in the page's pixels from its upper left corner.
+  toPixels(place) {
+    const { x, y } = place.clone().project(this.camera);
+    return [((x + 1) / 2) * this.canvas.clientWidth, ((1 - y) / 2) * this.canvas.clientHeight];
   }
 
   // Looks at all of a box, from where it looks now.
   fit(box) {
     if (box.isEmpty()) return;
     const sphere = box.getBoundingSphere(new Sphere());
-    const narrow = Math.min(1, this.camera.aspect);
-    const distance = (1.12 * sphere.radius) / Math.sin((this.camera.fov * Math.PI) / 360) / narrow;
-    const direction = this.camera.position.clone().sub(this.controls.target).normalize();
-    this.controls.target.copy(sphere.center);
-    this.camera.position.copy(sphere.center).addScaledVector(direction, distance);
+    this.#cameras.fit(sphere, this.controls.target);
     this.setRange(box);
     this.controls.update();
     this.invalidate();
@@ -87,12 +141,25 @@ export class Stage {
   // Near and far for all of a box, from anywhere.
   setRange(box) {
     if (box.isEmpty()) return;
-    const size = box.getSize(new Vector3()).length();
-    this.camera.near = size / 500;
-    this.camera.far = 40 * size;
-    this.controls.minDistance = size / 200;
-    this.controls.maxDistance = 20 * size;
-    this.camera.updateProjectionMatrix();
+    this.#size = box.getSize(new Vector3()).length();
+    this.#cameras.setRange(this.#size, this.controls);
+  }
+
+  // Looks at the same things from a direction of the scene.
+  lookFrom(direction) {
+    const distance = this.camera.position.distanceTo(this.controls.target);
+    this.camera.position.copy(this.controls.target).addScaledVector(direction, distance);
+    this.controls.update();
+    this.invalidate();
+  }
+
+  // Perspective or parallel, from the same place and, at the target, as large as before.
+  toggleParallel() {
+    this.#cameras.swap(this.controls.target);
+    this.controls.object = this.camera;
+    this.#cameras.setRange(this.#size, this.controls);
+    this.controls.update();
+    this.invalidate();
   }
 
   #light() {
@@ -101,24 +168,16 @@ export class Stage {
     key.position.set(-0.7, 1.1, 1);
     const rim = new DirectionalLight(0xe8f0ff, 0.5);
     rim.position.set(1, -0.2, -0.6);
-    this.camera.add(key, key.target, rim, rim.target);  // the light goes with the eye
-    this.scene.add(this.camera);
+    this.#cameras.carry([key, key.target, rim, rim.target]);  // the light goes with the eye
+    this.scene.add(...this.#cameras.all);
   }
 
   #resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (clientWidth === 0 || clientHeight === 0) return;
     this.renderer.setSize(clientWidth, clientHeight, false);
-    this.camera.aspect = clientWidth / clientHeight;
-    this.camera.updateProjectionMatrix();
+    this.#cameras.aspect = clientWidth / clientHeight;
     this.#afterResize();
     this.invalidate();
-  }
-
-  #draw() {
-    this.#isStale = false;
-    this.controls.update();
-    for (const before of this.#beforeFrame) before();
-    this.renderer.render(this.scene, this.camera);
   }
 }

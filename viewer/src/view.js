@@ -5,6 +5,7 @@ import { diagonal } from './batch.js';
 import { fetchMany } from './bundles.js';
 import { colouring, explain, hexOf } from './colours.js';
 import { Contours } from './contours.js';
+import { CutView } from './cut_view.js';
 import { Frame, nameOf } from './frame.js';
 import { Highlight } from './highlight.js';
 import { Layers } from './layers.js';
@@ -12,6 +13,8 @@ import { Lines } from './lines.js';
 import { Loader } from './loader.js';
 import { hitAt, nearestPoint } from './pick.js';
 import { parseSlab } from './glb.js';
+import { trianglesOf } from './section.js';
+import { integralsOf } from './solid.js';
 import { Slabs } from './slabs.js';
 import { Stage } from './scene.js';
 import { Surroundings } from './surroundings.js';
@@ -32,6 +35,7 @@ export class View {
   #contours;
   #lines;
   #surroundings;
+  #cut;
   #chosen;             // the slice
   #picked;             // contour and point
   #worn = new Set();   // slabs with normals that are no longer right
@@ -63,6 +67,8 @@ export class View {
     this.#contours = new Contours(this.#loader, (slice) => this.#draw(slice));
     this.#lines = new Lines(this.stage.scene);
     this.#surroundings = new Surroundings(this.stage.scene, lengths);
+    this.#cut = new CutView(this.stage, { surfaces: this.#layers.materials, lines: [this.#lines.material] },
+                            (z) => this.#contours.ask(z));
     this.#chosen = new Highlight(this.stage.scene, 2.5);
     this.#picked = new Highlight(this.stage.scene, 4);
     this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
@@ -75,6 +81,7 @@ export class View {
 
   get heights() { return this.#contours.heights; }
   get unit() { return this.#unit; }
+  get frame() { return this.#frame; }
   // From the lowest to the highest height.
   get range() { return this.#slabs.range; }
 
@@ -82,6 +89,8 @@ export class View {
     this.stage.background = background;
     this.#surroundings.colour = grid;
     this.#lines.material.color.set(lines);
+    this.#cut.lineColour = lines;
+    this.#cut.colour = accent;
     this.#chosen.colour = accent;
     this.#picked.colour = accent;
   }
@@ -121,30 +130,50 @@ export class View {
     this.#mode = settings.colour;
     this.#isStale = true;
     if (!this.#frame) return;
-    this.#applyCut(settings.cut);
     this.#applyContours(settings.hasContours);
     this.#applySlice(settings.slice);
     this.stage.invalidate();
   }
+
+  get cut() { return this.#cut; }
 
   fit() {
     this.#wasMoved = this.#labels.isAnyHidden;  // what is hidden does not matter now
     this.stage.fit(this.#box(({ label }) => this.#labels.isShown(label)));
   }
 
+  // What lies under a place of the screen (-1 to 1): its slab, the point in the scene, the place in
+  // the input's coordinates.
+  hitAt(x, y) {
+    if (!this.#frame) return undefined;
+    this.#layers.flush();
+    const { cap, volumes } = this.#cut;
+    const labelOf = this.#layers.labelling();
+    // What is solid goes before what is seen through.
+    const hit = this.#layers.meshes.map((mesh) =>
+      hitAt(this.stage, [mesh], [x, y], { cap, volumes, labelOf })).find(Boolean);
+    const slab = hit && [...this.#slots].find(([, slot]) => this.#layers.isHit(slot, hit))?.[0];
+    if (!slab) return undefined;
+    const place = this.#frame.toInput(hit.point);
+    return { point: hit.point, place, slab: this.#slabAround(slab, place[2]) };
+  }
+
+  // All triangles of a label that are in the picture.
+  trianglesOf(label) {
+    return trianglesOf(this.#layers.contentsOf(label));
+  }
+
   // Says what lies under a place (-1 to 1), and marks the contour point next to it. Resolves to
   // that point, if there is any.
   async pick(x, y) {
-    this.#layers.flush();
-    const hit = this.#layers.meshes.map((mesh) => hitAt(this.stage, mesh, x, y)).find(Boolean);
-    const slab = hit && [...this.#slots].find(([, slot]) => this.#layers.isHit(slot, hit))?.[0];
+    const hit = this.hitAt(x, y);
     this.forgetPick();
-    if (!slab) return undefined;
+    if (!hit) return undefined;
+    const { slab, place } = hit;
     this.#labels.choose(slab.label);
     const pick = this.#picks;
     const slices = await Promise.all([slab.low, slab.high].map((z) => this.#contours.ask(z)));
     if (pick !== this.#picks) return undefined;
-    const place = this.#frame.toInput(hit.point);
     const nearest = nearestPoint(slices.filter(Boolean), place, slab.label);
     this.#panel.showPick(slab, place, nearest, this.unit, this.range);
     this.#mark(nearest);
@@ -155,6 +184,13 @@ export class View {
     ++this.#picks;
     this.#mark(undefined);
     this.#panel.forgetPick();
+  }
+
+  // Inside of a label it is the slab at that height: a hit is of what lies beyond it.
+  #slabAround(slab, z) {
+    const isAround = ({ low, high }) => low <= z && z <= high;
+    if (isAround(slab)) return slab;
+    return [...this.#slots.keys()].find((other) => other.label === slab.label && isAround(other)) ?? slab;
   }
 
   #fetch(slabs) {
@@ -222,6 +258,7 @@ export class View {
     if (this.#frame?.isFarFrom(slab.translation)) this.#leave();
     if (!this.#frame) this.#begin(slab);
     slab.positions = this.#frame.place(slab.positions, slab.translation);
+    slab.integrals = integralsOf(slab.positions, slab.indices);
     this.#labels.enter(slab.label, hexOf(slab));
     this.#slots.set(slab, this.#layers.add(slab));
     for (const bulk of ['positions', 'normals', 'indices']) delete slab[bulk];
@@ -271,8 +308,9 @@ export class View {
     this.#layers.flush();
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
-      highlight.keepSize(this.stage.camera, this.stage.canvas.clientHeight);
+      highlight.keepSize(this.stage);
     this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
+    this.#cut.prepare();
   }
 
   #refresh() {
@@ -280,11 +318,19 @@ export class View {
     const colours = colouring(this.#mode, [...this.#slots.keys()], this.#labels);
     for (const [slab, slot] of this.#slots) this.#layers.setColour(slot, colours.of(slab));
     explain(this.#legend, colours);
+    this.#cut.fill(this.#pieces(), this.#box(), this.#frame);
     if (!this.#frame) return;
     const box = this.#box();
     this.#panel.showGrid(this.#surroundings.surround(box, this.#frame, this.#unit), this.#unit);
     if (this.#wasMoved) this.stage.setRange(box);
     else this.stage.fit(box);
+  }
+
+  // For the caps of a cut; what is hidden gets none, as it is not drawn.
+  #pieces() {
+    const { of: colourOf } = colouring('label', [], this.#labels);
+    return [...this.#slots].map(([slab, slot]) => ({ label: slab.label, integrals: slab.integrals,
+      colour: colourOf(slab), opacity: slot.opacity, ...this.#layers.placeOf(slot) }));
   }
 
   #box(isIn = () => true) {
@@ -295,9 +341,9 @@ export class View {
 
   #applyLook(what) {
     if (what === 'visibility') this.#layers.applyVisibility();
-    else if (what === 'opacity') this.#layers.applyOpacity();
-    else this.#isStale = true;
     if (what === 'visibility') this.#redrawLater();
+    if (what === 'opacity') this.#layers.applyOpacity();
+    if (what !== 'visibility') this.#isStale = true;
     this.stage.invalidate();
   }
 
@@ -323,15 +369,6 @@ export class View {
   #shownPart(slice) {
     const isShown = (_, contour) => this.#labels.isShown(slice.labels?.[contour] ?? '');
     return slice && { ...slice, contours: slice.contours.filter(isShown) };
-  }
-
-  #applyCut(cut) {
-    if (cut) {
-      const { y } = this.#frame.toScene(0, 0, cut.z);
-      this.stage.cut.normal.set(0, cut.keepsBelow ? -1 : 1, 0);
-      this.stage.cut.constant = cut.keepsBelow ? y : -y;
-    }
-    this.stage.setCut([...this.#layers.materials, this.#lines.material], cut !== undefined);
   }
 
   #applyContours(areShown) {
@@ -364,7 +401,7 @@ export class View {
     const points = nearest?.slice.contours[nearest.contour];
     this.#picked.showSlice(points && { z: nearest.slice.z, contours: [points] }, this.#frame);
     const place = points && this.#frame.toScene(...points[nearest.point], nearest.slice.z);
-    this.#picked.showPoint(place, this.stage.camera, this.stage.canvas.clientHeight);
+    this.#picked.showPoint(place, this.stage);
     this.stage.invalidate();
   }
 
