@@ -50,7 +50,12 @@ constexpr std::array surface_writers{
 Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::span<const Part> parts,
                         WriteOptions options) {
   if (!options.origin) options.origin = centre_of(extent(parts));
-  const RoundedParts rounded(parts, {*options.origin, options.metres_per_unit}, false);
+  FloatFrame frame{*options.origin, options.metres_per_unit};
+  if (options.compression != Compression::none) {
+    if (!options.grid) options.grid = compression_grid(parts, options);
+    frame.grid = options.grid;
+  }
+  const RoundedParts rounded(parts, frame, false);
   format.write(out, rounded.parts(), options);
   return {rounded.rounding()};
 }
@@ -74,7 +79,6 @@ Written write_surfaces(const SurfaceWriter& format, std::ostream& out, std::span
                        const WriteOptions& options) {
   switch (format.coordinates) {
     case Coordinates::float_in_metres:
-      if (options.compression != Compression::none) break;  // on a coarser grid
       return write_in_metres(format, out, parts, options);
     case Coordinates::float_as_they_are:
       return write_as_they_are(format, out, parts, options);

@@ -40,11 +40,11 @@ images        io/images/*                    volumes
 dicom         io/dicom/*                     volumes
 stacks        io/stacks/*                    contours images dicom
 meshes        io/meshes/*                    bytes
-gltf          io/gltf/*                      meshes
 rounding      io/rounding/*                  meshes
+gltf          io/gltf/*                      rounding
 planar        io/planar/*                    bytes
 session       io/session/*                   stacks
-io            io/{fields,maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf rounding planar session
+io            io/{fields,maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf planar session
 
 words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words

@@ -104,6 +104,7 @@ void check_outputs(const ReconstructCommand& command) {
 
 /// The same, once the labels are known.
 void check_outputs(const ReconstructCommand& command, const std::vector<std::string>& labels) {
+  static_cast<void>(hidden_labels(command, labels));
   for (const path& output : command.outputs) {
     if (!is_per_label(output)) {
       check_labels_fit(labels.size(), output);
@@ -213,29 +214,39 @@ std::vector<io::Part> parts_of(const ReconstructCommand& command, const Stack& s
   return parts;
 }
 
-/// How far positions are moved, where they are.
-void say_compression(const ReconstructCommand& command, std::span<const io::Part> parts,
-                     Terminal& terminal) {
-  if (command.compression == io::Compression::none || command.quiet) return;
-  terminal.say("positions in glTF are rounded by at most " +
-               io::short_number(io::quantisation_error(parts)) + ' ' + command.unit);
+/// How far positions are moved in compressed glTF.
+void tell_rounding(const ReconstructCommand& command, const path& output,
+                   std::span<const io::Part> parts, const io::Written& written,
+                   Terminal& terminal) {
+  if (command.compression == io::Compression::none || command.quiet || !is_gltf(output)) return;
+  std::string words = output.string() + ": positions are rounded by at most " +
+                      io::short_number(io::quantisation_error(parts)) + ' ' + command.unit;
+  if (written.rounding.moved > 0)
+    words += "; " + counted(written.rounding.moved, "place") +
+             " a few steps farther, so that it stays valid";
+  terminal.say(words);
 }
 
-void write_all(const ReconstructCommand& command, const std::vector<io::Part>& parts,
+void write_one(const ReconstructCommand& command, const path& output,
+               std::span<const io::Part> parts, Terminal& terminal) {
+  if (is_interrupted()) throw Cancelled();
+  const io::Written written = io::write(output, parts, write_options(command));
+  tell(output, written, terminal);
+  tell_rounding(command, output, parts, written, terminal);
+}
+
+void write_all(const ReconstructCommand& command, std::span<const io::Part> parts,
                Terminal& terminal) {
   std::vector<std::string> labels;
   for (const io::Part& part : parts) labels.push_back(part.label);
   for (const path& output : command.outputs) {
     if (!is_per_label(output)) {
-      if (is_interrupted()) throw Cancelled();
-      tell(output, io::write(output, parts, write_options(command)), terminal);
+      write_one(command, output, parts, terminal);
       continue;
     }
     const std::vector<path> files = label_files(output, labels);
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      if (is_interrupted()) throw Cancelled();
-      tell(files[i], io::write(files[i], {&parts[i], 1}, write_options(command)), terminal);
-    }
+    for (std::size_t i = 0; i < files.size(); ++i)
+      write_one(command, files[i], parts.subspan(i, 1), terminal);
   }
 }
 
@@ -285,9 +296,7 @@ void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& repo
   options.reports_slabs = command.json && command.slabs;
   std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
   stopwatch.lap();
-  const std::vector<io::Part> parts = parts_of(command, stack, results);
-  write_all(command, parts, terminal);
-  say_compression(command, parts, terminal);
+  write_all(command, parts_of(command, stack, results), terminal);
   report.seconds["write"] = stopwatch.lap();
   for (Result& result : results) {
     for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;

@@ -15,7 +15,7 @@ void tell(const std::filesystem::path& output, const io::Written& written, Termi
         ", as 32-bit floats cannot hold them about 0; add that, or take .ply, .obj or .off");
   if (rounding.left > 0)
     terminal.warn(output.string() + ": " + counted(rounding.left, "fault") +
-                  " by rounding to 32-bit floats could not be mended (faces without area, that "
+                  " by rounding could not be mended (faces without area, that "
                   "meet, or that touch); .ply, .obj and .off keep all digits");
 }
 

@@ -85,8 +85,8 @@ void add_gltf_options(CLI::App& sub, ReconstructCommand& command) {
                how == "quantize" ? io::Compression::quantize : io::Compression::meshopt;
          },
          "Smaller files, not for every program (Blender reads neither): positions of 16 bits, "
-         "normals of 8 (quantize), and these packed by meshoptimizer (meshopt). Rounding may make "
-         "a surface cross itself: loft check tells")
+         "normals of 8 (quantize), and these packed by meshoptimizer (meshopt). What rounding "
+         "breaks is mended, or counted in a warning")
       ->type_name("HOW")
       ->check(CLI::IsMember({"quantize", "meshopt"}));
   sub.add_flag("--with-contours", command.with_contours,

@@ -13,7 +13,7 @@ namespace loft::app {
 /// What can be said of a structure that is shown; lengths in the stack's unit.
 struct ShownLabel {
   std::string label;
-  bool is_skin = false;    ///< encloses the others, so that it would hide them
+  bool is_skin = false;    ///< see io::is_skin()
   std::size_t slices = 0;  ///< that have contours of it; 0 where that is not known
   double volume = 0;
   double area = 0;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "io/meshes/grid.h"
 #include "io/meshes/labelled_mesh.h"
 #include "io/meshes/part.h"
 
@@ -26,14 +27,17 @@ namespace loft::io {
 ///
 /// With WriteOptions::compression, positions are rounded to one grid for all parts, of 16 bits an
 /// axis, so that what was at one place still is (see quantisation_error()); a node's scale is its
-/// step. That may turn faces over or let thin parts cross. Required then: `KHR_mesh_quantization`,
-/// and for meshopt `EXT_meshopt_compression`, without a fallback.
-/// Throws Error where the surfaces are too large for `float` coordinates or 4 GiB, and for meshopt
-/// in a build without it.
+/// step. That may turn faces over or let thin parts cross: io::write() mends it. Required then:
+/// `KHR_mesh_quantization`, and for meshopt `EXT_meshopt_compression`, without a fallback. Throws
+/// Error where the surfaces are too large for `float` coordinates or 4 GiB, and for meshopt in a
+/// build without it.
 void write_glb(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
 
 /// The same as glTF JSON, in one file: the buffer is embedded (base64).
 void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptions& options = {});
+
+/// The grid that WriteOptions::compression rounds to. Cost: O(n).
+[[nodiscard]] Grid compression_grid(std::span<const Part> parts, const WriteOptions& options);
 
 /// The farthest that WriteOptions::compression moves a vertex, in the unit of the parts. Cost:
 /// O(n).

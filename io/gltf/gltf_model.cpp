@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "io/meshes/label_colour.h"
+#include "io/rounding/float_frame.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 
@@ -20,8 +21,8 @@ void set_bounds(tinygltf::Accessor& accessor, std::span<const Vec3> points) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto [low, high] =
         std::ranges::minmax(points, {}, [axis](const Vec3& point) { return point[axis]; });
-    accessor.minValues.push_back(static_cast<double>(static_cast<float>(low[axis])));
-    accessor.maxValues.push_back(static_cast<double>(static_cast<float>(high[axis])));
+    accessor.minValues.push_back(as_float(low[axis]));
+    accessor.maxValues.push_back(as_float(high[axis]));
     if (!std::isfinite(accessor.minValues[axis]) || !std::isfinite(accessor.maxValues[axis])) {
       throw Error("too large for glTF, which has float coordinates in metres; set the unit");
     }

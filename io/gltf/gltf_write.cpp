@@ -10,12 +10,12 @@
 #include "io/bytes/utf8.h"
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_model.h"
-#include "io/gltf/grid.h"
 #include "io/gltf/meshopt.h"
 #include "io/gltf/node_extras.h"
 #include "io/gltf/packed.h"
 #include "io/gltf/shading.h"
 #include "io/meshes/extent.h"
+#include "io/meshes/grid.h"
 #include "io/meshes/skin.h"
 #include "mesh/vec3.h"
 #include "reconstruct/defect.h"
@@ -33,6 +33,20 @@ Frame frame_of(std::span<const Part> parts, const WriteOptions& options) {
   return {options.origin ? *options.origin : centre_of(extent(parts)), options.metres_per_unit};
 }
 
+/// The heights of slices, around the frame's centre; of tilted ones there are too many.
+std::vector<double> levels_of(std::span<const Part> parts, const Frame& frame) {
+  constexpr std::size_t most = 0xffff;
+  std::set<double> levels;
+  for (const Part& part : parts)
+    for (const auto vertex : part.surface->vertices()) {
+      if (part.surface->data(vertex).origin.kind != VertexKind::contour) continue;
+      if (levels.insert(frame.relative(place_of(*part.surface, vertex))[1]).second &&
+          levels.size() > most)
+        return {};
+    }
+  return {levels.begin(), levels.end()};
+}
+
 /// Of all that parts have, around the frame's centre, its axes turned.
 Grid grid_of(std::span<const Part> parts, const Frame& frame) {
   Box3 box = extent(parts);
@@ -42,7 +56,9 @@ Grid grid_of(std::span<const Part> parts, const Frame& frame) {
   if (!(box.low[0] <= box.high[0])) return {{}, {}};
   const Vec3 a = frame.relative(box.low);
   const Vec3 b = frame.relative(box.high);
-  return {{a[0], a[1], b[2]}, {b[0], b[1], a[2]}};
+  Grid grid({a[0], a[1], b[2]}, {b[0], b[1], a[2]});
+  grid.fit(levels_of(parts, frame), b[1]);
+  return grid;
 }
 
 bool is_open(const Surface& surface) {
@@ -90,7 +106,8 @@ class Composer {
  public:
   Composer(std::span<const Part> parts, const WriteOptions& options)
       : parts_(parts), options_(options), frame_(frame_of(parts, options)) {
-    if (options.compression != Compression::none) grid_ = grid_of(parts, frame_);
+    if (options.compression == Compression::none) return;
+    grid_ = options.grid ? *options.grid : grid_of(parts, frame_);
   }
 
   void write(std::ostream& out, bool binary) {
@@ -262,6 +279,10 @@ void write_glb(std::ostream& out, std::span<const Part> parts, const WriteOption
 
 void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptions& options) {
   Composer(parts, options).write(out, false);
+}
+
+Grid compression_grid(std::span<const Part> parts, const WriteOptions& options) {
+  return grid_of(parts, frame_of(parts, options));
 }
 
 double quantisation_error(std::span<const Part> parts) {

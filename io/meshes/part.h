@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/meshes/grid.h"
 #include "mesh/mesh.h"
 #include "reconstruct/stack.h"
 #include "reconstruct/surface.h"
@@ -55,6 +56,8 @@ struct WriteOptions {
   std::vector<std::string> sources = {};
   std::map<std::string, std::string> settings = {};
   Compression compression = Compression::none;  ///< of glTF
+  /// That compressed glTF is rounded to: about the origin, in metres, y up. None: by the parts.
+  std::optional<Grid> grid = {};
   /// The file of materials that an OBJ names, beside it (materials.h); empty: none.
   std::string materials = {};
 };

@@ -44,7 +44,7 @@ char lower_case(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + ('
 }  // namespace
 
 bool is_skin(std::string_view label, std::string_view kind) {
-  if (kind == "EXTERNAL") return true;
+  if (kind == "EXTERNAL" || kind == "BODY") return true;
   if (std::ranges::find(inner_kinds, kind) != inner_kinds.end()) return false;
   bool is_named = false;
   std::string name(label);

@@ -109,6 +109,10 @@ bool Mender::is_mendable(VertexHandle v) const {
 }
 
 Vec3 Mender::unit_around(VertexHandle v) const {
+  if (frame_.grid) {
+    const double step = frame_.grid->step() / frame_.factor;
+    return {step, step, step};
+  }
   Vec3 largest{};
   const auto add = [&](const Vec3& place) {
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -10,6 +10,8 @@ function clearOf(material) {
   clear.transparent = true;
   clear.depthWrite = false;
   clear.forceSinglePass = true;  // back and front of a skin have the same colour
+  // Where a skin and what is in it lie in one plane the latter is seen.
+  clear.polygonOffsetFactor = clear.polygonOffsetUnits = 2;
   return clear;
 }
 

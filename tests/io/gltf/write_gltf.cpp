@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Writes one glTF file of each kind that can come up, into the current folder, for
-// validate_gltf.mjs.
+// validate_gltf.mjs, and a 3MF for check_3mf.py.
 #include <fstream>
 #include <string>
 #include <vector>
 
+#include "io/bytes/zip.h"
 #include "io/gltf/meshopt.h"
 #include "io/gltf/replay.h"
 #include "io/gltf/slab_glb.h"
@@ -77,6 +78,12 @@ int main() {
   std::ofstream animated("replay.glb", std::ios::binary);
   replay.write(animated);
 
+  if (io::has_zip()) {
+    const Surface third = prism(12, {2 + 1.0 / 3 + 0, 0, 0}, 1, false);
+    options.metres_per_unit = 1e-6;
+    write("parts.3mf",
+          {{"liver \"1\" & <2>", &closed, Colour{0xd0, 0x20, 0x30}}, {"lung \xc3\xa9", &third}});
+  }
   options.metres_per_unit = 1e-9;
   write("tiny.glb", {{"", &tiny}});
 }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
-// For sources of io/gltf only.
 #pragma once
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "mesh/mesh.h"
 
@@ -17,6 +17,11 @@ class Grid {
   static constexpr std::uint16_t last = 0xffff;
 
   Grid(const Vec3& low, const Vec3& high);
+
+  /// Levels at which most places lie, from low to high, along the second axis. Where they lie
+  /// evenly, their numbers get the same lower byte, which packs to nothing: the step divides their
+  /// gap, and is less than twice as long for that.
+  void fit(std::span<const double> levels, double high);
 
   [[nodiscard]] Cell cell(const Vec3& place) const;
   [[nodiscard]] Vec3 place(const Cell& cell) const;
