@@ -7,7 +7,7 @@ import { BufferGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute,
 import { handleLayer } from './scene.js';
 
 const reach = { cone: 54, ball: 84 };  // pixels from the plane
-const grip = 14;                       // pixels around them
+const grip = { mouse: 14, pen: 14, touch: 26 };  // pixels around them
 const mostCorners = 6;                 // where a plane meets a box
 const up = new Vector3(0, 1, 0);
 
@@ -136,7 +136,7 @@ export class CutHandle extends EventTarget {
       const [x, y] = this.#stage.toPixels(this.#at(reach[part]));
       return Math.hypot(event.clientX - left - x, event.clientY - top - y);
     };
-    const parts = ['ball', 'cone'].filter((part) => distance(part) <= grip);
+    const parts = ['ball', 'cone'].filter((part) => distance(part) <= (grip[event.pointerType] ?? grip.mouse));
     return parts.sort((a, b) => distance(a) - distance(b))[0];
   }
 
