@@ -322,7 +322,7 @@ export class View {
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage);
-    this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
+    this.#surroundings.lookFrom(this.stage.camera, this.stage);
     this.#cut.prepare();
   }
 
