@@ -68,7 +68,7 @@ export class View {
     this.#lines = new Lines(this.stage.scene);
     this.#surroundings = new Surroundings(this.stage.scene, lengths);
     this.#cut = new CutView(this.stage, { surfaces: this.#layers.materials, lines: [this.#lines.material] },
-                            (z) => this.#contours.ask(z));
+                            async (z) => this.#shownPart(await this.#contours.ask(z)));
     this.#chosen = new Highlight(this.stage.scene, 2.5);
     this.#picked = new Highlight(this.stage.scene, 4);
     this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
@@ -322,7 +322,7 @@ export class View {
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage);
-    this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
+    this.#surroundings.lookFrom(this.stage.camera, this.stage);
     this.#cut.prepare();
   }
 
@@ -367,6 +367,7 @@ export class View {
     this.#redrawing = setTimeout(() => {
       if (this.#lines.isShown) this.#redraw(this.heights);
       else this.#lines.clear();
+      this.#cut.renewContours();
       this.#applySlice(this.#settings.slice);
     }, quiet);
   }
