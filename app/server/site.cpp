@@ -159,8 +159,7 @@ void Site::handle_what_is_refused() {
 void Site::explain(const Request& request, Response& response) const {
   const std::string methods = setup_.methods(request.path);
   const bool is_other_method = !methods.empty() && methods.find(request.method) == methods.npos;
-  if (response.status == 404 && is_other_method)
-    return explain_method(request, response);
+  if (response.status == 404 && is_other_method) return explain_method(request, response);
   if (response.status == 404) return refuse(response, 404, "there is no " + request.path);
   refuse(response, std::max(response.status, 400), "the request was not understood");
 }

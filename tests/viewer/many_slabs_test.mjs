@@ -64,8 +64,8 @@ test('All slabs come with a request or two, and what changes is shown', async ()
 test('Slabs that are drawn together have colours of their own', async () => {
   const { viewer } = await open();
   await slabCount(viewer, across ** 2 * (slices - 1));
-  const byLabel = await viewer.picture();
   await viewer.page.locator('#canvas').focus();
+  const byLabel = await viewer.picture();
   await viewer.page.keyboard.press('l');  // by age
   await viewer.settle();
   const byAge = await viewer.picture();
