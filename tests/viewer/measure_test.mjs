@@ -15,7 +15,8 @@ before(async () => {
   browser = await startBrowser();
   loft = await Loft.start('stream', '--no-input', '--view', '--port', '0');
   await loft.post(square(0, 5), square(4, 5), square(8, 5));
-  viewer = await Viewer.open(browser, loft.url);
+  // The view stands still between clicks.
+  viewer = await Viewer.open(browser, loft.url, { reducedMotion: 'reduce' });
   await viewer.waitForSlabs(2);
 });
 after(async () => {
@@ -73,11 +74,11 @@ test('what is measured is what the scale bar says', async () => {
 test('around an edge the way along the surface is longer than the straight one', async () => {
   await press('o', 'f', '1', 'ArrowLeft', 'ArrowLeft', 'ArrowLeft', 'Shift+M', 'Shift+M');
   await viewer.page.locator('#measure-kind').selectOption('distance');
-  await click(-70, 10);
+  await click(-140, 10);  // beyond the edge
   await click(70, 10);
   const straight = await lastMeasure();
   await viewer.page.locator('#measure-kind').selectOption('section');
-  await click(-70, 10);
+  await click(-140, 10);  // beyond the edge
   await click(70, 10);
   assert.ok(await lastMeasure() > 1.02 * straight, `${await lastMeasure()} ${straight}`);
 });
@@ -89,6 +90,24 @@ test('measures are removed by a button and by a key', async () => {
   assert.equal(await count(), before - 1);
   await press('Delete');
   assert.equal(await count(), before - 2);
+});
+
+test('at the borders stands where they are in a patient', async () => {
+  const letters = () => viewer.page.locator('#letters span').allInnerTexts();
+  assert.ok((await letters()).every((letter) => letter === ''));
+  await viewer.page.addInitScript(() => {
+    const parse = JSON.parse;
+    JSON.parse = (text) => {
+      const value = parse(text);
+      return value?.metres_per_unit === undefined ? value : { ...value, is_patient: true };
+    };
+  });
+  await viewer.page.reload();
+  await viewer.waitForSlabs(2);
+  await press('2');
+  assert.deepEqual(await letters(), ['L', 'R', 'S', 'I']);
+  await press('Shift+1');
+  assert.deepEqual(await letters(), ['A', 'P', 'S', 'I']);
 });
 
 test('a picture is a PNG of one, two or four times the canvas', async () => {

@@ -118,7 +118,7 @@ function painting() {
           if (at(pixel + ivec2(i, 0)) != sum) borders += 1.0;
           if (at(pixel + ivec2(0, i)) != sum) borders += 1.0;
         }
-        float light = mix(0.8, 1.0, abs(dot(normalize(across), normalize(toEye))));
+        float light = mix(0.88, 1.0, abs(dot(normalize(across), normalize(toEye))));
         float ink = 1.0 - 0.35 * min(borders, 1.0);
         colour = vec4(light * ink * seen.rgb / seen.a, seen.a);
       }` });
@@ -167,6 +167,7 @@ export class Caps {
   // Ahead of a frame. What is on the negative side of the plane is cut away, and the eye is there;
   // without a plane nothing is filled. `size` is that of the quad.
   draw(plane, centre, size, camera) {
+    for (const mesh of this.#summing.keys()) mesh.perObjectFrustumCulled = true;
     this.#quad.visible = plane !== undefined && this.#areDrawn;
     if (!this.#quad.visible) return;
     this.#lay(plane, centre, size);
@@ -194,6 +195,7 @@ export class Caps {
       mesh.material = material;
       renderer.render(mesh, camera);
       mesh.material = own;
+      mesh.perObjectFrustumCulled = false;  // what is in sight is known for the rest of this frame
     }
     renderer.autoClear = autoClear;
     renderer.setRenderTarget(null);

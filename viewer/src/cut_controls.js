@@ -21,6 +21,7 @@ function dot(a, b) {
 
 export class CutControls extends EventTarget {
   #normal = axes.z;  // across which it is, whatever it keeps
+  #shownNormal;
   #place;            // along the normal, once it was moved
   #thickness;        // likewise
   #heights = [];
@@ -175,6 +176,8 @@ export class CutControls extends EventTarget {
 
   #show() {
     this.#showPlaces();
+    if (this.#shownNormal === this.#normal) return;
+    this.#shownNormal = this.#normal;
     if (document.activeElement !== element('cut-turn') && document.activeElement !== element('cut-tilt')) {
       const [tilt, turn] = anglesOf(this.#normal);
       element('cut-tilt').value = tilt;
@@ -200,8 +203,13 @@ export class CutControls extends EventTarget {
       : `slice ${exact(slice)} ${this.#unit}`);
     this.#write('cut-thickness', length(this.#currentThickness()));
     if (low === high) return;
-    element('cut').value = ((this.#current() - low) / (high - low)) * sliderSteps;
-    element('cut-thickness').value = (this.#currentThickness() / (high - low)) * sliderSteps;
+    this.#slide('cut', (this.#current() - low) / (high - low));
+    this.#slide('cut-thickness', this.#currentThickness() / (high - low));
+  }
+
+  #slide(id, share) {
+    const value = share * sliderSteps;
+    if (Math.abs(Number(element(id).value) - value) > 1e-6) element(id).value = value;
   }
 
   #write(id, text) {

@@ -7,7 +7,8 @@ import { BufferGeometry, ConeGeometry, CylinderGeometry, Float32BufferAttribute,
 import { handleLayer } from './scene.js';
 
 const reach = { cone: 54, ball: 84 };  // pixels from the plane
-const grip = 14;                       // pixels around them
+const grip = { mouse: 14, pen: 14, touch: 26 };  // pixels around them
+const mostCorners = 6;                 // where a plane meets a box
 const up = new Vector3(0, 1, 0);
 
 // Where a plane meets the edges of a box, in order around it.
@@ -51,6 +52,8 @@ export class CutHandle extends EventTarget {
       part.frustumCulled = false;
       this.#group.add(part);
     }
+    const room = new Float32BufferAttribute(new Float32Array(3 * mostCorners), 3);
+    this.#outline.geometry.setAttribute('position', room);
     this.#outline.frustumCulled = false;
     this.#outline.layers.set(handleLayer);
     this.#group.visible = this.#outline.visible = false;
@@ -68,10 +71,11 @@ export class CutHandle extends EventTarget {
     this.#group.visible = this.#outline.visible = plane !== undefined && !box.isEmpty();
     if (!this.#group.visible) return;
     const places = sectionOf(box, plane);
-    this.#outline.geometry.dispose();
-    this.#outline.geometry = new BufferGeometry();
-    const numbers = places.flatMap((place) => place.toArray());
-    this.#outline.geometry.setAttribute('position', new Float32BufferAttribute(numbers, 3));
+    const { geometry } = this.#outline;
+    const position = geometry.getAttribute('position');
+    for (const [i, { x, y, z }] of places.entries()) position.setXYZ(i, x, y, z);
+    position.needsUpdate = true;
+    geometry.setDrawRange(0, places.length);
     plane.projectPoint(this.#drag?.pivot ?? box.getCenter(new Vector3()), this.#middle);
     this.#normal.copy(plane.normal).negate();
     this.#group.position.copy(this.#middle);
@@ -132,7 +136,7 @@ export class CutHandle extends EventTarget {
       const [x, y] = this.#stage.toPixels(this.#at(reach[part]));
       return Math.hypot(event.clientX - left - x, event.clientY - top - y);
     };
-    const parts = ['ball', 'cone'].filter((part) => distance(part) <= grip);
+    const parts = ['ball', 'cone'].filter((part) => distance(part) <= (grip[event.pointerType] ?? grip.mouse));
     return parts.sort((a, b) => distance(a) - distance(b))[0];
   }
 

@@ -23,7 +23,7 @@ export class CutView {
   #frame;
   #box = new Box3();
   #planes = [];
-  #slice;  // whose contours are shown
+  #slice;  // whose contours are shown; null where they are to be shown anew
   #volumes = new Map();
 
   // `materials`: { surfaces, lines } that the cut goes through; ask(z) resolves to the contours of
@@ -59,7 +59,7 @@ export class CutView {
     this.#frame = frame;
     this.#volumes = this.#caps.assign(pieces);
     this.#showInsides();
-    this.#slice = undefined;  // it may have changed
+    this.#slice = null;  // it may have changed
     if (!frame || box.isEmpty()) return;
     const ends = [box.min, box.max].map((corner) => frame.toInput(corner));
     const bounds = [Math.min, Math.max].map((pick) => ends[0].map((value, i) => pick(value, ends[1][i])));
@@ -79,6 +79,12 @@ export class CutView {
     this.#handle.show(this.#planes[0], this.#box);
     this.#showContours(cut?.slice);
     this.#stage.invalidate();
+  }
+
+  // Their slice, or what is shown of it, has changed.
+  renewContours() {
+    this.#slice = null;
+    this.apply();
   }
 
   // Cuts across one of the input's axes; what is on the eye's side goes.

@@ -32,7 +32,8 @@ export class Overlay {
     const { target } = stage.controls;
     const pixel = frame.length(stage.unitsPerPixel(target));
     const length = roundDown(longest * pixel);
-    this.#bar.style.width = `${length / pixel}px`;
+    const width = `${(length / pixel).toFixed(2)}px`;
+    if (this.#bar.style.width !== width) this.#bar.style.width = width;
     const depth = stage.isParallel ? '' : ', at the middle';
     const text = `${number(length)} ${unit}${depth}`;
     const output = this.#bar.firstElementChild;

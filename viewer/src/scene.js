@@ -26,6 +26,8 @@ export class Stage {
   #cuts = [];      // of surfaces
   #lineCuts = [];  // of the lines on them
   #size = 1;       // of all there is
+  width = 1;       // of the canvas, in pixels of the page: asking it may cost a layout
+  height = 1;
 
   constructor(canvas) {
     this.canvas = canvas;
@@ -119,13 +121,13 @@ export class Stage {
 
   // How long a pixel of the page is at a place.
   unitsPerPixel(place) {
-    return this.#cameras.heightAt(place) / this.canvas.clientHeight;
+    return this.#cameras.heightAt(place) / this.height;
   }
 
   // Where a place is on the canvas, in the page's pixels from its upper left corner.
   toPixels(place) {
     const { x, y } = place.clone().project(this.camera);
-    return [((x + 1) / 2) * this.canvas.clientWidth, ((1 - y) / 2) * this.canvas.clientHeight];
+    return [((x + 1) / 2) * this.width, ((1 - y) / 2) * this.height];
   }
 
   // Looks at all of a box, from where it looks now.
@@ -175,6 +177,7 @@ export class Stage {
   #resize() {
     const { clientWidth, clientHeight } = this.canvas.parentElement;
     if (clientWidth === 0 || clientHeight === 0) return;
+    [this.width, this.height] = [clientWidth, clientHeight];
     this.renderer.setSize(clientWidth, clientHeight, false);
     this.#cameras.aspect = clientWidth / clientHeight;
     this.#afterResize();

@@ -30,8 +30,8 @@ function paintWords(context, canvas, { words, bar }, factor) {
 
 // Draws once at another resolution: what graphics cards allow, if `factor` is more.
 function render(stage, factor) {
-  const { renderer, canvas } = stage;
-  const [width, height, ratio] = [canvas.clientWidth, canvas.clientHeight, renderer.getPixelRatio()];
+  const { renderer, canvas, width, height } = stage;
+  const ratio = renderer.getPixelRatio();
   const most = renderer.getContext().getParameter(renderer.getContext().MAX_RENDERBUFFER_SIZE);
   const own = Math.min(factor, most / Math.max(width, height));
   renderer.setPixelRatio(own);

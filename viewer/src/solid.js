@@ -4,27 +4,34 @@
 const none = () => ({ size: 0, area: [0, 0, 0], volume: [0, 0, 0] });
 
 // Of one piece: the sum of the triangles' areas, of their area vectors, and the volume under the
-// piece as each of the three axes sees it.
+// piece as each of the three axes sees it. Written out, as there are many triangles.
 export function integralsOf(positions, indices) {
-  const sum = none();
-  const side = [[0, 0, 0], [0, 0, 0]];
+  let [size, areaX, areaY, areaZ, volumeX, volumeY, volumeZ] = [0, 0, 0, 0, 0, 0, 0];
   for (let i = 0; i < indices.length; i += 3) {
-    const [a, b, c] = [3 * indices[i], 3 * indices[i + 1], 3 * indices[i + 2]];
-    for (let k = 0; k < 3; ++k) {
-      side[0][k] = positions[b + k] - positions[a + k];
-      side[1][k] = positions[c + k] - positions[a + k];
-    }
-    let square = 0;
-    for (let k = 0; k < 3; ++k) {
-      const [l, m] = [(k + 1) % 3, (k + 2) % 3];
-      const area = (side[0][l] * side[1][m] - side[0][m] * side[1][l]) / 2;
-      square += area * area;
-      sum.area[k] += area;
-      sum.volume[k] += (area * (positions[a + k] + positions[b + k] + positions[c + k])) / 3;
-    }
-    sum.size += Math.sqrt(square);
+    const a = 3 * indices[i];
+    const b = 3 * indices[i + 1];
+    const c = 3 * indices[i + 2];
+    const ax = positions[a];
+    const ay = positions[a + 1];
+    const az = positions[a + 2];
+    const ux = positions[b] - ax;
+    const uy = positions[b + 1] - ay;
+    const uz = positions[b + 2] - az;
+    const vx = positions[c] - ax;
+    const vy = positions[c + 1] - ay;
+    const vz = positions[c + 2] - az;
+    const x = (uy * vz - uz * vy) / 2;
+    const y = (uz * vx - ux * vz) / 2;
+    const z = (ux * vy - uy * vx) / 2;
+    size += Math.sqrt(x * x + y * y + z * z);
+    areaX += x;
+    areaY += y;
+    areaZ += z;
+    volumeX += x * (ax + (ux + vx) / 3);
+    volumeY += y * (ay + (uy + vy) / 3);
+    volumeZ += z * (az + (uz + vz) / 3);
   }
-  return sum;
+  return { size, area: [areaX, areaY, areaZ], volume: [volumeX, volumeY, volumeZ] };
 }
 
 export function total(pieces) {

@@ -93,7 +93,7 @@ export class Surroundings {
 
   // Draws the edges that lie behind the surface as the eye has it, and puts the lengths beside
   // those near the outline of the box.
-  lookFrom(camera, canvas) {
+  lookFrom(camera, { width, height }) {
     const isShown = this.#box !== undefined && !this.#box.isEmpty();
     for (const label of this.#labels) label.hidden = !isShown;
     if (!isShown) return;
@@ -108,8 +108,8 @@ export class Surroundings {
                     new Vector3(nearX, min.y, (min.z + max.z) / 2)];
     for (const [i, label] of this.#labels.entries()) {
       const place = places[i].project(camera);
-      label.style.left = `${((place.x + 1) / 2) * canvas.clientWidth}px`;
-      label.style.top = `${((1 - place.y) / 2) * canvas.clientHeight}px`;
+      label.style.left = `${((place.x + 1) / 2) * width}px`;
+      label.style.top = `${((1 - place.y) / 2) * height}px`;
     }
   }
 }

@@ -4,6 +4,14 @@
 const plain = new Intl.NumberFormat('en', { maximumSignificantDigits: 5 });
 const tiny = new Intl.NumberFormat('en', { notation: 'scientific', maximumSignificantDigits: 5 });
 
+// By digits behind the point: making one costs a tenth of a millisecond.
+const formats = new Map();
+function formatOf(maximumFractionDigits) {
+  if (!formats.has(maximumFractionDigits))
+    formats.set(maximumFractionDigits, new Intl.NumberFormat('en', { maximumFractionDigits }));
+  return formats.get(maximumFractionDigits);
+}
+
 // A measured quantity, to five digits.
 export function number(value) {
   if (!Number.isFinite(value)) return '–';
@@ -14,7 +22,7 @@ export function number(value) {
 // A place in something of that size: as many digits as tell its parts from one another.
 export function coordinate(value, size) {
   const digits = 4 - Math.floor(Math.log10(size > 0 ? size : 1));
-  return value.toLocaleString('en', { maximumFractionDigits: Math.min(Math.max(digits, 0), 20) });
+  return formatOf(Math.min(Math.max(digits, 0), 20)).format(value);
 }
 
 export function count(value) {

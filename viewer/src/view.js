@@ -68,7 +68,7 @@ export class View {
     this.#lines = new Lines(this.stage.scene);
     this.#surroundings = new Surroundings(this.stage.scene, lengths);
     this.#cut = new CutView(this.stage, { surfaces: this.#layers.materials, lines: [this.#lines.material] },
-                            (z) => this.#contours.ask(z));
+                            async (z) => this.#shownPart(await this.#contours.ask(z)));
     this.#chosen = new Highlight(this.stage.scene, 2.5);
     this.#picked = new Highlight(this.stage.scene, 4);
     this.stage.controls.addEventListener('start', () => { this.#wasMoved = true; });
@@ -104,7 +104,7 @@ export class View {
     this.#contours.reset(state.slices);
     this.forgetPick();
     this.#lines.clear();
-    this.#fetch(this.#slabs.reset(state.slabs, performance.now()));
+    this.#fetchMany(this.#slabs.reset(state.slabs, performance.now()));
     this.#panel.showDownloads(state.downloads);
     this.#tell(state);
   }
@@ -129,7 +129,7 @@ export class View {
     this.#settings = settings;
     this.#mode = settings.colour;
     this.#isStale = true;
-    if (!this.#frame) return;
+    if (!this.#frame) return this.#beginBare();
     this.#applyContours(settings.hasContours);
     this.#applySlice(settings.slice);
     this.stage.invalidate();
@@ -291,6 +291,19 @@ export class View {
     if (this.#settings) this.apply(this.#settings);
   }
 
+  // There are slices and no surface: then they are what is to be seen.
+  get #isBare() { return this.#slabs.size === 0 && this.heights.length > 0; }
+
+  #beginBare() {
+    if (this.#isBare) this.heights.forEach((z) => this.#contours.ask(z));
+  }
+
+  #beginWith(slice) {
+    const { heights } = this;
+    this.#frame = Frame.around(slice, heights.at(-1) - heights[0], this.#metresPerUnit);
+    if (this.#frame && this.#settings) this.apply(this.#settings);
+  }
+
   // While much is on its way frames are few: each of them holds up the rest.
   #refreshLater() {
     this.#isStale = true;
@@ -309,7 +322,7 @@ export class View {
     this.#lines.refresh();
     for (const highlight of [this.#chosen, this.#picked])
       highlight.keepSize(this.stage);
-    this.#surroundings.lookFrom(this.stage.camera, this.stage.canvas);
+    this.#surroundings.lookFrom(this.stage.camera, this.stage);
     this.#cut.prepare();
   }
 
@@ -336,7 +349,7 @@ export class View {
   #box(isIn = () => true) {
     const all = new Box3();
     for (const slot of this.#slots.values()) if (isIn(slot)) all.union(slot.box);
-    return all;
+    return this.#isBare ? all.union(this.#lines.box) : all;
   }
 
   #applyLook(what) {
@@ -354,6 +367,7 @@ export class View {
     this.#redrawing = setTimeout(() => {
       if (this.#lines.isShown) this.#redraw(this.heights);
       else this.#lines.clear();
+      this.#cut.renewContours();
       this.#applySlice(this.#settings.slice);
     }, quiet);
   }
@@ -372,8 +386,8 @@ export class View {
   }
 
   #applyContours(areShown) {
-    this.#lines.isShown = areShown;
-    if (!areShown) return;
+    this.#lines.isShown = areShown || this.#isBare;
+    if (!this.#lines.isShown) return;
     for (const z of this.heights) {
       const slice = this.#contours.get(z);
       if (!slice) this.#contours.ask(z);
@@ -382,8 +396,10 @@ export class View {
   }
 
   #draw(slice) {
+    if (!this.#frame && this.#isBare) return this.#beginWith(slice);
     if (!this.#frame || !this.#lines.isShown) return;
     this.#lines.set(this.#shownPart(slice), this.#frame);
+    if (this.#isBare) this.#isStale = true;  // so is the box
     this.stage.invalidate();
   }
 
@@ -411,6 +427,6 @@ export class View {
   }
 
   #showPending() {
-    this.#panel.showPending(this.#slabs.pending, this.#slabs.size === 0);
+    this.#panel.showPending(this.#slabs.pending, this.#slabs.size === 0 && !this.#isBare);
   }
 }
