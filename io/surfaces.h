@@ -22,10 +22,11 @@ struct Written {
 /// Writes surfaces into one file; the extension chooses the format. The same surfaces and options
 /// give the same bytes. The file appears whole or not at all.
 ///
-/// Where coordinates are `float` (.stl, .glb, .gltf; of 16 bits in compressed glTF) the rounded surfaces are tested exactly, and
-/// mended by neighbouring floats (io/rounding); what could not be mended is counted. In an STL,
-/// which has no vertices, parts that touch are drawn apart by as much; one whose coordinates are
-/// too far from 0 for `float` is about a round place near it, unless the options name another one.
+/// Where coordinates are `float` (.stl, .glb, .gltf; of 16 bits in compressed glTF) the rounded
+/// surfaces are tested exactly, and mended by neighbouring floats (io/rounding); what could not be
+/// mended is counted. In an STL, which has no vertices, parts that touch are drawn apart by as
+/// much; one whose coordinates are too far from 0 for `float` is about a round place near it,
+/// unless the options name another one.
 ///
 /// An OBJ whose parts have labels or colours has its materials in a second file beside it
 /// (materials.h), which replaces one of that name and is there first.
