@@ -40,9 +40,9 @@ async function press(...keys) {
   }
 }
 
-// Of a label, as the legend has it.
+// Of a label, as the list has it.
 async function colourOf(label) {
-  const item = viewer.page.locator('#legend li', { hasText: label }).locator('.swatch');
+  const item = viewer.page.locator('#labels [role="option"]:visible', { hasText: label }).locator('.swatch');
   const text = await item.evaluate((swatch) => getComputedStyle(swatch).backgroundColor);
   return text.match(/\d+/g).map(Number);
 }
@@ -67,13 +67,20 @@ async function areas(colours) {
 }
 
 test('a cut at a slice is filled as its contours are, seen from either side', async () => {
-  await show(...[0, 4, 8].map((z) => line(z, [square(10), square(4), square(2, [7, 7])], ['body', 'organ', 'node'])));
-  const colours = await Promise.all(['body', 'organ'].map(colourOf));
+  await show(...[0, 4, 8].map((z) => line(z, [square(10), square(4), square(2, [7, 7])], ['tissue', 'organ', 'node'])));
+  const colours = await Promise.all(['tissue', 'organ'].map(colourOf));
   await press('o', '3', 'x');
   assert.equal(await viewer.text('cut-text'), 'slice 4 mm');
   const above = await areas(colours);
   assert.ok(Math.abs(above[0] / above[1] - (400 - 64 - 16) / 64) < 0.3, String(above));
-  await press('v', 'Shift+3');
+  const { width, height } = await viewer.page.locator('#canvas').boundingBox();
+  await viewer.page.locator('#canvas').click({ position: { x: width / 2 + 30, y: height / 2 + 30 } });
+  await viewer.page.waitForFunction(() => document.getElementById('pick').textContent.includes('organ'));
+  await press('h');  // what is hidden is not in the cut: the body is around it
+  const [whole] = await areas(colours.slice(0, 1));
+  assert.equal(area(await viewer.picture(), colours[1]), 0);
+  assert.ok(Math.abs(whole / above[0] - (400 - 16) / (400 - 64 - 16)) < 0.05, `${whole} ${above}`);
+  await press('h', 'v', 'Shift+3');
   const below = await areas(colours);
   assert.ok(Math.abs(below[0] / below[1] - (400 - 64 - 16) / 64) < 0.3, String(below));
   await press('v');  // what is kept is on this side now, and is closed
