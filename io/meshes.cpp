@@ -59,6 +59,11 @@ std::vector<LabelledMesh> read_meshes(const std::filesystem::path& path) {
   return format_of(mesh_readers, path).read(path);
 }
 
+std::vector<Slice> read_contours(const std::filesystem::path& path) {
+  if (extension(path) != ".ply") return {};
+  return read_ply_contours(read_file(path), path.string());
+}
+
 Mesh read_mesh(const std::filesystem::path& path) {
   std::vector<LabelledMesh> parts = read_meshes(path);
   Mesh result = std::move(parts.front().mesh);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/meshes/labelled_mesh.h"
+#include "reconstruct/slice.h"
 
 namespace loft::io {
 
@@ -20,6 +21,10 @@ namespace loft::io {
 
 /// The same as one mesh.
 [[nodiscard]] Mesh read_mesh(const std::filesystem::path& path);
+
+/// The contours that the surface in a file was made of, as far as it knows them (PLY): slices from
+/// low to high. Empty for what knows none. Throws as read_meshes().
+[[nodiscard]] std::vector<Slice> read_contours(const std::filesystem::path& path);
 
 /// The extensions that read_meshes() knows, in lower case: `.ply .obj ...`.
 [[nodiscard]] std::string mesh_extensions();

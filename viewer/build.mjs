@@ -30,6 +30,7 @@ const pages = {
     ['/', 'text/html; charset=utf-8', await readFile(join(folder, 'index.html'))],
     ['/viewer.js', 'text/javascript; charset=utf-8', bundled('viewer.js')],
     ['/viewer.css', 'text/css; charset=utf-8', bundled('style.css')],
+    ['/export.js', 'text/javascript; charset=utf-8', await readFile(join(folder, 'export.js'))],
     icon,
   ],
   live_assets: [

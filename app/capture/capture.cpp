@@ -61,9 +61,21 @@ Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
   thread_ = std::thread([this] { run(); });
 }
 
+/// What the session has, as far as it is wanted.
+void Capture::each_edit(const io::Session::Take& take) {
+  const auto undos = session_->undos();
+  const std::uint64_t end = setup_.most_edits.value_or(session_->edit_count());
+  session_->for_each([&](std::uint64_t number, Edit&& edit) {
+    if (number >= end) return;
+    const auto undo = undos.find(number);
+    told_.history.add(edit, undo == undos.end() ? std::nullopt : std::optional(undo->second));
+    take(number, std::move(edit));
+  });
+}
+
 /// Edit by edit, for who wants to see each.
 void Capture::repeat_session() {
-  session_->for_each([&](std::uint64_t number, Edit&& edit) {
+  each_edit([&](std::uint64_t number, Edit&& edit) {
     const Applied applied = apply(edit, cdt::Effort::unlimited);
     if (applied.answer.outcome != Answer::Outcome::taken)
       throw cannot_be_applied(number, applied.answer.error);
@@ -78,7 +90,7 @@ void Capture::repeat_session() {
 void Capture::resume_session() {
   std::map<double, std::uint64_t> last_edits;  // of slices that are there, by height
   NetChange none;
-  session_->for_each([&](std::uint64_t number, Edit&& edit) {
+  each_edit([&](std::uint64_t number, Edit&& edit) {
     if (edit.kind != Edit::Kind::remove) surfaces_.add_labels(edit.slice, none);
     if (const auto problem = told_.stack.apply(edit)) throw cannot_be_applied(number, *problem);
     last_edits[edit.slice.z] = ++told_.edits;
@@ -131,7 +143,17 @@ void Capture::close(std::chrono::milliseconds patience) {
 
 Capture::Submission Capture::submit(Edit edit, Done done, std::chrono::milliseconds patience,
                                     Origin origin) {
-  const std::size_t points = weight(edit);
+  return enqueue({std::move(edit), std::move(done), Clock::now(), std::move(origin)}, patience);
+}
+
+Capture::Submission Capture::submit(Way way, Done done, std::chrono::milliseconds patience) {
+  return enqueue(
+      {.edit = {}, .done = std::move(done), .begin = Clock::now(), .origin = {}, .way = way},
+      patience);
+}
+
+Capture::Submission Capture::enqueue(Job job, std::chrono::milliseconds patience) {
+  const std::size_t points = weight(job.edit);
   std::unique_lock lock(queue_mutex_);
   const auto has_room = [&] {
     return is_closed_ || queue_.empty() ||
@@ -141,12 +163,13 @@ Capture::Submission Capture::submit(Edit edit, Done done, std::chrono::milliseco
   if (!queue_changed_.wait_for(lock, patience, has_room)) return Submission::full;
   if (is_closed_) return Submission::closed;
   points_waiting_ += points;
-  queue_.push_back({std::move(edit), std::move(done), Clock::now(), std::move(origin)});
+  queue_.push_back(std::move(job));
   queue_changed_.notify_all();
   return Submission::taken;
 }
 
-/// Waits for some; none when all is done.
+/// Waits for some; none when all is done. What goes back or forth comes alone: it rests on what was
+/// kept before it.
 std::vector<Capture::Job> Capture::next_jobs() {
   std::unique_lock lock(queue_mutex_);
   queue_changed_.wait(lock, [&] { return is_closed_ || !queue_.empty(); });
@@ -154,9 +177,12 @@ std::vector<Capture::Job> Capture::next_jobs() {
   // Who observes wants to see the surface after each.
   const std::size_t most = setup_.observe ? 1 : most_at_once;
   while (!queue_.empty() && jobs.size() < most) {
+    const bool is_alone = queue_.front().way.has_value();
+    if (is_alone && !jobs.empty()) break;
     points_waiting_ -= weight(queue_.front().edit);
     jobs.push_back(std::move(queue_.front()));
     queue_.pop_front();
+    if (is_alone) break;
   }
   queue_changed_.notify_all();
   return jobs;
@@ -194,7 +220,7 @@ void Capture::give_back_held(std::vector<Job>& jobs) {
 void Capture::work_off(std::vector<Job>& jobs) {
   give_back_held(jobs);
   std::vector<Applied> all;
-  for (const Job& job : jobs) all.push_back(apply(job.edit, setup_.most_effort));
+  for (Job& job : jobs) all.push_back(job.way ? go(job) : apply(job.edit, setup_.most_effort));
   const std::string failure = keep(jobs, all);
   if (failure.empty()) {
     tell(jobs, all);
@@ -219,7 +245,10 @@ std::string Capture::keep(const std::vector<Job>& jobs, const std::vector<Applie
     if (all[i].answer.outcome == Answer::Outcome::taken) taken.push_back(jobs[i].edit);
   }
   try {
-    session_->append(taken, position);
+    if (taken.size() == 1 && jobs.front().undo)
+      session_->append(taken.front(), *jobs.front().undo);
+    else
+      session_->append(taken, position);
   } catch (const std::exception& error) {
     return error.what();
   }
@@ -241,12 +270,19 @@ void Capture::tell(const std::vector<Job>& jobs, std::vector<Applied>& all) {
       continue;
     }
     all[i].change.bring_up_to_date(++told_.edits, told_.slabs);
-    told_.stack.set(all[i].exchange.z, all[i].exchange.after);
+    note(jobs[i], all[i].exchange);
     told_.latencies.push_back(answer.latency_ms);
     if (told_.latencies.size() > latency_count) told_.latencies.pop_front();
     publish(jobs[i].edit, all[i].change, answer.latency_ms);
     if (setup_.observe) setup_.observe(all[i].change, *told_.view);
   }
+}
+
+/// That an edit was taken.
+void Capture::note(const Job& job, const LabelledSurfaces::Exchange& exchange) {
+  told_.stack.set(exchange.z, exchange.after);
+  told_.history.add(job.edit, job.undo);
+  if (!session_) told_.history.remember(exchange.before, exchange.after);
 }
 
 void Capture::take_back(std::vector<Job>& jobs, std::vector<Applied>& all,
@@ -258,7 +294,9 @@ void Capture::take_back(std::vector<Job>& jobs, std::vector<Applied>& all,
     Applied& applied = all[i];
     const bool is_taken = applied.answer.outcome == Answer::Outcome::taken;
     const bool comes_again = is_taken && jobs[i].origin.is_held != nullptr;
-    if (!comes_again && applied.answer.outcome != Answer::Outcome::ended) ++rejected;
+    const bool is_answered = applied.answer.outcome == Answer::Outcome::ended ||
+                             applied.answer.outcome == Answer::Outcome::nothing;
+    if (!comes_again && !is_answered) ++rejected;
     if (!is_taken) continue;
     surfaces_.take_back(applied.exchange, undone);
     applied.answer = {Answer::Outcome::not_kept, failure};
@@ -272,8 +310,30 @@ void Capture::take_back(std::vector<Job>& jobs, std::vector<Applied>& all,
 
 // --- The surfaces ---
 
+/// Back or forth: the edit that does so takes whatever it takes, as what it makes was there before.
+Capture::Applied Capture::go(Job& job) {
+  Applied applied;
+  const auto of = told_.history.next(*job.way);
+  if (!of) {
+    applied.answer = {Answer::Outcome::nothing, *job.way == Way::undo
+                                                    ? "there is nothing to undo"
+                                                    : "there is nothing to do again"};
+    return applied;
+  }
+  try {
+    job.edit = told_.history.edit(*job.way, session_ ? &*session_ : nullptr, surfaces_.stack());
+  } catch (const std::exception& error) {
+    applied.answer = {Answer::Outcome::rejected, error.what()};
+    return applied;
+  }
+  job.undo = io::Undo{*of, *job.way == Way::redo};
+  return apply(job.edit, cdt::Effort::unlimited);
+}
+
 Capture::Applied Capture::apply(const Edit& edit, std::uint64_t most_effort) {
   Applied applied;
+  applied.answer.kind = edit.kind;
+  applied.answer.z = edit.slice.z;
   if (is_given_up_) {
     applied.answer = {Answer::Outcome::ended, "the capture has ended"};
     return applied;
@@ -409,6 +469,11 @@ std::vector<double> Capture::heights() const {
 std::uint64_t Capture::edit_count() const {
   const std::lock_guard lock(told_mutex_);
   return told_.edits;
+}
+
+Json Capture::history() const {
+  const std::lock_guard lock(told_mutex_);
+  return told_.history.to_json();
 }
 
 std::uint64_t Capture::rejected_count() const {

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/capture/feed.h"
+#include "app/capture/history.h"
 #include "app/capture/labelled_surfaces.h"
 #include "app/capture/net_change.h"
 #include "app/json.h"
@@ -29,6 +30,7 @@ namespace loft::app {
 /// What became of an edit.
 struct Answer {
   enum class Outcome {
+    nothing,   ///< there is nothing to undo, or to do again
     taken,     ///< it is in the surface and, with a session, durable
     rejected,  ///< it makes no sense there: `error` says why
     not_kept,  ///< the session could not be written; the surface is as before
@@ -40,8 +42,10 @@ struct Answer {
   std::vector<std::string> removed = {};  ///< slabs, as viewers know them
   std::vector<std::string> added = {};
   std::vector<std::string> repairs = {};
-  double latency_ms = 0;              ///< since it was submitted
-  std::optional<io::Edit> edit = {};  ///< back, where it was not kept
+  double latency_ms = 0;                         ///< since it was submitted
+  std::optional<io::Edit> edit = {};             ///< back, where it was not kept
+  io::Edit::Kind kind = io::Edit::Kind::insert;  ///< what was done, and where
+  double z = 0;
 };
 
 /// A capture at one time, for output and viewers.
@@ -75,6 +79,8 @@ class Capture {
     std::uint64_t most_effort = 2'000'000'000;
     std::size_t most_waiting = 256;             ///< edits
     std::size_t most_points_waiting = 4 << 20;  ///< points in them
+    /// Of what a session has only so many edits are made; none: all.
+    std::optional<std::uint64_t> most_edits = {};
     /// Called after each edit that has changed slabs or was taken, in the capture's thread, in
     /// their order.
     std::function<void(const NetChange&, const CaptureView&)> observe = {};
@@ -100,6 +106,8 @@ class Capture {
     return submit(std::move(edit), std::move(done), patience, {});
   }
   Submission submit(io::Edit edit, Done done, std::chrono::milliseconds patience, Origin origin);
+  /// Takes the last edit back that was not, or does it again (history.h).
+  Submission submit(Way way, Done done, std::chrono::milliseconds patience);
   /// Takes no more; returns when everything that waits is done.
   void close();
   /// The same; what is not done after that time is given up (Answer::Outcome::ended).
@@ -119,6 +127,7 @@ class Capture {
   /// Edits that were taken; and those that were rejected or not kept.
   [[nodiscard]] std::uint64_t edit_count() const;
   [[nodiscard]] std::uint64_t rejected_count() const;
+  [[nodiscard]] Json history() const;
 
   [[nodiscard]] const Setup& setup() const { return setup_; }
   [[nodiscard]] bool has_session() const { return session_.has_value(); }
@@ -130,9 +139,12 @@ class Capture {
     Done done;
     Clock::time_point begin;
     Origin origin;
+    std::optional<Way> way = {};  // the edit is found when it is its turn
+    std::optional<io::Undo> undo = {};
   };
   struct Applied;
 
+  void each_edit(const io::Session::Take& take);
   void repeat_session();
   void resume_session();
   void tell_all(const std::map<double, std::uint64_t>& last_edits);
@@ -144,7 +156,10 @@ class Capture {
   void tell(const std::vector<Job>& jobs, std::vector<Applied>& all);
   void take_back(std::vector<Job>& jobs, std::vector<Applied>& all, const std::string& failure);
   [[nodiscard]] std::shared_ptr<const CaptureView> make_view();
+  [[nodiscard]] Submission enqueue(Job job, std::chrono::milliseconds patience);
   [[nodiscard]] Applied apply(const io::Edit& edit, std::uint64_t most_effort);
+  [[nodiscard]] Applied go(Job& job);
+  void note(const Job& job, const LabelledSurfaces::Exchange& exchange);
   void refresh();
   void show_undone(const NetChange& change);
   void publish(const io::Edit& edit, const NetChange& change, double latency_ms);
@@ -174,6 +189,7 @@ class Capture {
     std::uint64_t edits = 0;
     std::uint64_t rejected = 0;
     std::deque<double> latencies;  // of the last edits
+    History history;
   };
   mutable std::mutex told_mutex_;
   Told told_;

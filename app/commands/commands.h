@@ -218,6 +218,9 @@ struct StreamCommand {
 /// `loft view FILE`
 struct ViewCommand {
   std::filesystem::path file;
+  std::optional<std::uint64_t> at = {};              ///< of a session: the first so many edits
+  std::optional<std::filesystem::path> folder = {};  ///< to write a page into, in place of serving
+  bool overwrites = false;                           ///< whatever is in it
   std::string host = "127.0.0.1";
   int port = 8337;
   std::string unit = "mm";
@@ -236,12 +239,13 @@ struct LiveCommand {
 
 /// `loft session list|export|verify FILE`
 struct SessionCommand {
-  enum class What { list, export_slices, verify };
+  enum class What { list, export_slices, verify, history, undo, redo };
 
   What what = What::list;
   std::filesystem::path file;
-  std::filesystem::path output = "-";  ///< `-`: standard output
-  bool edits = false;                  ///< export them, not the slices that they left
+  std::filesystem::path output = "-";    ///< `-`: standard output
+  bool edits = false;                    ///< export them, not the slices that they left
+  std::optional<std::uint64_t> at = {};  ///< only the first so many edits
   bool json = false;
   bool quiet = false;
 };

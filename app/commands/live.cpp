@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <iostream>
 #include <memory>
 #include <string>
 #include <thread>
@@ -87,8 +88,11 @@ ExitCode run(const LiveCommand& command) {
   std::vector<Tab> tabs = tabs_of(command, setup.first);
   const LiveServer server(setup, std::move(tabs));
   Terminal terminal(command.quiet);
-  terminal.say("listening on " + server.url());
-  if (!server.token().empty()) terminal.say("edits need the token " + server.token());
+  // A token that was drawn is said even with --quiet: without it nobody could send an edit.
+  if (!server.token().empty() && command.token.empty())
+    std::cerr << "listening on " << server.url() << "#token=" << server.token() << std::endl;
+  else
+    terminal.say("listening on " + server.url());
   while (!is_interrupted()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
   return ExitCode::ok;
 }

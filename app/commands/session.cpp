@@ -7,7 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "app/capture/history.h"
 #include "app/commands/commands.h"
+#include "app/commands/settings.h"
 #include "app/json.h"
 #include "app/overwriting.h"
 #include "app/report.h"
@@ -68,12 +70,14 @@ struct Salvaged {
 };
 
 /// Writes all that is sound.
-Salvaged write_export(const io::Session& session, bool edits, std::ostream& out) {
+Salvaged write_export(const io::Session& session, const SessionCommand& command,
+                      std::ostream& out) {
   io::StackState state;
   Salvaged salvaged;
-  salvaged.faults = session.salvage([&](std::uint64_t, Edit&& edit) {
+  salvaged.faults = session.salvage([&](std::uint64_t number, Edit&& edit) {
     ++salvaged.edits;
-    if (edits) {
+    if (command.at && number >= *command.at) return;
+    if (command.edits) {
       out << to_line(edit) << '\n';
     } else if (state.apply(edit) && edit.kind == Edit::Kind::replace) {
       // What it replaced is lost; it is not.
@@ -81,7 +85,7 @@ Salvaged write_export(const io::Session& session, bool edits, std::ostream& out)
       static_cast<void>(state.apply(edit));
     }
   });
-  if (!edits) io::write_slices_json(out, state.stack());
+  if (!command.edits) io::write_slices_json(out, state.stack());
   out.flush();
   return salvaged;
 }
@@ -97,13 +101,48 @@ ExitCode report(const SessionCommand& command, const Salvaged& salvaged) {
   return salvaged.faults.empty() ? ExitCode::ok : ExitCode::bad_input;
 }
 
+/// The edits, a line each, as viewers number them.
+ExitCode show_history(const SessionCommand& command) {
+  const io::Session session(command.file, io::Session::Access::read);
+  const Json history = history_of(session).to_json();
+  if (command.json) {
+    Json report{{"schema", "loft-session-history"}, {"schema_version", 1}};
+    report.update(history);
+    std::cout << print(report) << '\n';
+    return ExitCode::ok;
+  }
+  for (const Json& edit : history["edits"])
+    std::cout << edit["number"] << ' ' << edit["op"].get<std::string>()
+              << " z = " << exact(edit["z"].get<double>())
+              << (edit["is_undone"] == true ? ", undone" : "") << '\n';
+  return ExitCode::ok;
+}
+
+ExitCode go(const SessionCommand& command, Way way) {
+  io::Session session(command.file, io::Session::Access::write);
+  const History history = history_of(session);
+  Terminal terminal(command.quiet);
+  const auto of = history.next(way);
+  if (!of) {
+    terminal.complain(command.file.string() + ": there is nothing to " + name(way));
+    return ExitCode::check_failed;
+  }
+  io::StackState stack;
+  session.for_each([&](std::uint64_t, Edit&& edit) { static_cast<void>(stack.apply(edit)); });
+  const Edit edit = history.edit(way, &session, stack);
+  session.append(edit, {*of, way == Way::redo});
+  terminal.say(std::string(name(way)) + " of edit " + std::to_string(*of + 1) + ": " +
+               io::name(edit.kind) + " z = " + exact(edit.slice.z));
+  return ExitCode::ok;
+}
+
 ExitCode export_slices(const SessionCommand& command) {
   const io::Session session(command.file, io::Session::Access::read);
-  if (command.output == "-")
-    return report(command, write_export(session, command.edits, std::cout));
+  if (command.at) check_at(*command.at, session, command.file);
+  if (command.output == "-") return report(command, write_export(session, command, std::cout));
   forbid_overwriting(std::array{command.file}, std::array{command.output});
   io::AtomicFile file(command.output);
-  const Salvaged salvaged = write_export(session, command.edits, file.stream());
+  const Salvaged salvaged = write_export(session, command, file.stream());
   const bool has_something = salvaged.edits > 0 || salvaged.faults.empty();
   if (has_something) file.commit();
   const ExitCode code = report(command, salvaged);
@@ -162,6 +201,12 @@ ExitCode run(const SessionCommand& command) {
       return list(command);
     case SessionCommand::What::export_slices:
       return export_slices(command);
+    case SessionCommand::What::history:
+      return show_history(command);
+    case SessionCommand::What::undo:
+      return go(command, Way::undo);
+    case SessionCommand::What::redo:
+      return go(command, Way::redo);
     case SessionCommand::What::verify:
       break;
   }

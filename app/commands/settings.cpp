@@ -46,6 +46,13 @@ void set(StreamCommand& command, const std::string& key, const std::string& valu
 
 }  // namespace
 
+void check_at(std::uint64_t count, const io::Session& session, const std::filesystem::path& file) {
+  const std::uint64_t all = session.edit_count();
+  if (count > all)
+    throw InputError(file.string() + ": it has " + std::to_string(all) + " edits, and not " +
+                     std::to_string(count));
+}
+
 Capture::Setup setup_of(const StreamCommand& command) {
   Capture::Setup setup;
   setup.options = command.options;

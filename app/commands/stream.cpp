@@ -172,10 +172,12 @@ class Stream {
                                   .port = command_.port,
                                   .most_bytes = command_.most_megabytes << 20U},
                     shown_, feed_, &capture_);
-    terminal_.say("listening on " + server_->url());
-    // Said even with --quiet: without it nobody could send an edit.
+    // A token that was drawn is said even with --quiet: without it nobody could send an edit.
+    // Behind the # it stays in the browser.
     if (!server_->token().empty() && command_.token.empty())
-      std::cerr << "edits need this token: " << server_->token() << std::endl;
+      std::cerr << "listening on " << server_->url() << "#token=" << server_->token() << std::endl;
+    else
+      terminal_.say("listening on " + server_->url());
   }
 
   void read_input() {

@@ -8,12 +8,15 @@
 #include "app/commands/commands.h"
 #include "app/commands/settings.h"
 #include "app/interrupt.h"
+#include "app/server/exported_page.h"
 #include "app/server/server.h"
 #include "app/server/shown_capture.h"
 #include "app/server/shown_mesh.h"
+#include "app/server/shown_stack.h"
 #include "app/terminal.h"
 #include "io/meshes.h"
 #include "io/session/session.h"
+#include "io/stack.h"
 
 namespace loft::app {
 
@@ -36,6 +39,7 @@ class SessionView {
     take_over(io::Session(command.file, io::Session::Access::read).settings(), begun);
     Capture::Setup setup = app::setup_of(begun);
     setup.kind = "session";
+    setup.most_edits = command.at;
     setup.name = command.file.filename().string();
     return setup;
   }
@@ -45,7 +49,11 @@ class SessionView {
   ShownCapture shown_{capture_};
 };
 
-void serve(const ViewCommand& command, Shown& shown) {
+void show(const ViewCommand& command, Shown& shown) {
+  if (command.folder) {
+    export_page(shown, *command.folder, command.overwrites);
+    return Terminal(command.quiet).say("wrote " + command.folder->string());
+  }
   const Feed nothing_changes;
   const Server server({.host = command.host, .port = command.port}, shown, nothing_changes,
                       nullptr);
@@ -59,10 +67,15 @@ ExitCode run(const ViewCommand& command) {
   catch_interrupts();
   if (io::is_mesh_file(command.file)) {
     ShownMesh mesh(command.file, command.unit);
-    serve(command, mesh);
+    show(command, mesh);
+  } else if (!io::is_session_file(command.file) && io::is_stack_file(command.file)) {
+    ShownStack stack(command.file, command.unit);
+    show(command, stack);
   } else {
+    if (command.at)
+      check_at(*command.at, io::Session(command.file, io::Session::Access::read), command.file);
     SessionView session(command);
-    serve(command, session.shown());
+    show(command, session.shown());
   }
   return ExitCode::ok;
 }

@@ -324,10 +324,19 @@ CLI::App* add_stream(CLI::App& app, StreamCommand& command) {
 
 /// Adds `loft view`; the command is ready when the line has been parsed.
 CLI::App* add_view(CLI::App& app, ViewCommand& command) {
-  CLI::App* sub = app.add_subcommand("view", "Show a mesh or the session of a stream in a browser");
+  CLI::App* sub = app.add_subcommand(
+      "view", "Show a mesh, the contours of a stack or the session of a stream in a browser");
   sub->add_option("FILE", command.file,
-                  "Mesh file, " + loft::io::mesh_extensions() + ", or session file")
+                  "Mesh file, " + loft::io::mesh_extensions() + ", stack, " +
+                      loft::io::stack_extensions() + ", or session file")
       ->required();
+  sub->add_option("--at", command.at, "Of a session only the first N edits: as it was after them")
+      ->type_name("N");
+  sub->add_option("--export", command.folder,
+                  "Write a folder that shows it on any web server, or opened from the disk, in "
+                  "place of serving it")
+      ->type_name("FOLDER");
+  sub->add_flag("--force", command.overwrites, "Export into a folder that is not empty, too");
   begin_group(*sub, server);
   sub->add_option("--port", command.port, "Port to serve on (default 8337; 0: any that is free)")
       ->type_name("PORT")
@@ -337,6 +346,8 @@ CLI::App* add_view(CLI::App& app, ViewCommand& command) {
       "Open the address that it prints; Ctrl-C ends it.\n\n"
       "Examples:\n"
       "  loft view skull.ply\n"
+      "  loft view slices.dcm\n"
+      "  loft view skull.ply --export skull\n"
       "  loft view capture.session --port 0");
   return sub;
 }
@@ -398,9 +409,18 @@ CLI::App* add_session(CLI::App& app, SessionCommand& command) {
   exporting->add_option("-o,--output", command.output, "Output file; - (default): standard output")
       ->type_name("OUT");
   exporting->add_flag("--edits", command.edits, "Write the edits as they came instead");
+  exporting
+      ->add_option("--at", command.at, "Of the first N edits only: the stack as it was after them")
+      ->type_name("N");
   add("verify", "Check the file and every edit in it; exit code 1 if it is damaged",
       SessionCommand::What::verify)
       ->add_flag("--json", command.json, "Print one JSON object");
+  add("history", "Show the last 1,000 edits, numbered from 1, and which were undone",
+      SessionCommand::What::history)
+      ->add_flag("--json", command.json, "Print one JSON object");
+  add("undo", "Take the last edit back that was not; that is another edit",
+      SessionCommand::What::undo);
+  add("redo", "Do the edit again that was undone last", SessionCommand::What::redo);
   return sub;
 }
 

@@ -16,6 +16,7 @@
 #include <utility>
 
 #include "app/json.h"
+#include "app/server/http.h"
 
 namespace loft::app {
 
@@ -339,10 +340,10 @@ void Gate::look_at(const Shared& connection) {
 void Gate::refuse(const Shared& connection) {
   const auto& [status, why] = connection->reader.refusal();
   const std::string body = Json{{"error", why}}.dump(2) + '\n';
-  const std::string text = "HTTP/1.1 " + std::to_string(status) + ' ' + reason(status) +
-                           "\r\nConnection: close\r\nContent-Type: application/json\r\n"
-                           "Cache-Control: no-store\r\nContent-Length: " +
-                           std::to_string(body.size()) + "\r\n\r\n" + body;
+  std::string text = "HTTP/1.1 " + std::to_string(status) + ' ' + reason(status) +
+                     "\r\nConnection: close\r\nContent-Type: application/json\r\n";
+  for (const auto& [name, value] : safe_headers) text += std::string(name) + ": " + value + "\r\n";
+  text += "Content-Length: " + std::to_string(body.size()) + "\r\n\r\n" + body;
   connection->phase = Connection::Phase::closing;
   connection->begin = Clock::now();
   {

@@ -3,15 +3,28 @@
 
 #include <httplib.h>
 
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/json.h"
 
 namespace loft::app {
+
+/// What every answer says: nothing is kept or guessed, pages take nothing from elsewhere, and no
+/// page of another site shows them in a frame.
+inline constexpr std::array<std::pair<const char*, const char*>, 4> safe_headers{{
+    {"Cache-Control", "no-store"},
+    {"X-Content-Type-Options", "nosniff"},
+    {"Referrer-Policy", "no-referrer"},
+    {"Content-Security-Policy",
+     "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob: data:; "
+     "connect-src 'self' blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
+}};
 
 void answer(httplib::Response& response, int status, const Json& json);
 

@@ -31,6 +31,9 @@ using std::chrono::milliseconds;
 
 constexpr milliseconds patience{5000};  // of a POST while the queue is full
 
+/// So many bytes of slabs go into an answer, and what the last one has beyond.
+constexpr std::size_t most_slab_bytes = std::size_t{4} << 20U;
+
 /// So many lines, problems of a line or repairs are answered; the others are counted.
 constexpr std::size_t most_lines = 1 << 16;
 constexpr std::size_t most_words = 20;
@@ -78,17 +81,15 @@ class Server::Routes {
 
   [[nodiscard]] std::string methods(const std::string& path) const {
     static const std::regex known(
-        R"(/|/slices|/slabs|/events|/status|/labels|/surface\..*|/slabs/.*)");
+        R"(/|/slices|/slabs|/events|/status|/labels|/history|/surface\..*|/slabs/.*)");
     if (capture_ != nullptr && path == "/slices") return "GET, HEAD, POST";
+    if (capture_ != nullptr && (path == "/undo" || path == "/redo")) return "POST";
     return std::regex_match(path, known) ? "GET, HEAD" : "";
   }
 
   void add_routes() {
     Gate& http = site_.routes();
-    if (capture_ != nullptr)
-      http.Post("/slices",
-                [this](const Request& request, Response& response,
-                       const httplib::ContentReader& read) { post(request, response, read); });
+    if (capture_ != nullptr) add_changes();
     http.Get("/slices",
              [this](const Request& request, Response& response) { slices(request, response); });
     http.Get("/slabs",
@@ -100,6 +101,7 @@ class Server::Routes {
     http.Get("/events", [this](const Request& request, Response& response) {
       site_.stream(request, response, feed_, [this] { return shown_.reset_event(); });
     });
+    http.Get("/history", [this](const Request&, Response& response) { tell_history(response); });
     http.Get("/labels", [this](const Request&, Response& response) {
       answer(response, 200, to_json(shown_.labels()));
     });
@@ -110,7 +112,42 @@ class Server::Routes {
     });
   }
 
+  void add_changes() {
+    Gate& http = site_.routes();
+    http.Post("/slices",
+              [this](const Request& request, Response& response,
+                     const httplib::ContentReader& read) { post(request, response, read); });
+    for (const Way way : {Way::undo, Way::redo})
+      http.Post(way == Way::undo ? "/undo" : "/redo",
+                [this, way](const Request& request, Response& response,
+                            const httplib::ContentReader& read) {
+                  if (has_body(request) && !site_.take_body(request, response, read)) return;
+                  if (site_.admit(request, response)) go(way, response);
+                });
+  }
+
   // --- Edits ---
+
+  /// Back or forth.
+  void go(Way way, Response& response) {
+    auto promise = std::make_shared<std::promise<Answer>>();
+    std::future<Answer> future = promise->get_future();
+    const auto submission = capture_->submit(
+        way, [promise](const Answer& given) { promise->set_value(given); }, patience);
+    if (submission != Capture::Submission::taken) {
+      response.set_header("Retry-After", "1");
+      return refuse(response, 503,
+                    submission == Capture::Submission::full
+                        ? "too many edits are waiting; send it again"
+                        : "the capture has ended");
+    }
+    const Answer given = future.get();
+    if (given.outcome != Answer::Outcome::taken)
+      return refuse(response, status_of(given), given.error);
+    Json result{{"z", given.z}, {"op", io::name(given.kind)}};
+    tell(given, result);
+    answer(response, 200, {{"results", Json::array({std::move(result)})}});
+  }
 
   void post(const Request& request, Response& response, const httplib::ContentReader& read) {
     if (!has_body(request))
@@ -178,6 +215,29 @@ class Server::Routes {
     return false;
   }
 
+  static void tell(const Answer& given, Json& json) {
+    json["removed"] = given.removed;
+    json["added"] = given.added;
+    json["repairs"] = cut(given.repairs);
+    json["latency_ms"] = given.latency_ms;
+  }
+
+  [[nodiscard]] static int status_of(const Answer& given) {
+    switch (given.outcome) {
+      case Answer::Outcome::taken:
+        return 200;
+      case Answer::Outcome::nothing:
+        return 409;
+      case Answer::Outcome::rejected:
+        return 422;
+      case Answer::Outcome::ended:
+        return 503;
+      case Answer::Outcome::not_kept:
+        break;
+    }
+    return 507;
+  }
+
   [[nodiscard]] static Json result(Line& line) {
     Json json{{"line", line.number}};
     if (line.read.z) json["z"] = *line.read.z;
@@ -185,15 +245,10 @@ class Server::Routes {
     if (line.status == 200) {
       const Answer given = line.answer.get();
       if (given.outcome == Answer::Outcome::taken) {
-        json["removed"] = given.removed;
-        json["added"] = given.added;
-        json["repairs"] = cut(given.repairs);
-        json["latency_ms"] = given.latency_ms;
+        tell(given, json);
         return json;
       }
-      line.status = given.outcome == Answer::Outcome::rejected ? 422
-                    : given.outcome == Answer::Outcome::ended  ? 503
-                                                               : 507;
+      line.status = status_of(given);
       line.error = given.error;
     }
     json["error"] = line.error;
@@ -213,6 +268,13 @@ class Server::Routes {
     response.set_content(line + '\n', "application/x-ndjson");
   }
 
+  void tell_history(Response& response) const {
+    std::optional<Json> history = shown_.history();
+    if (!history) return refuse(response, 404, "there are no edits");
+    if (capture_ == nullptr) (*history)["can_undo"] = (*history)["can_redo"] = false;
+    answer(response, 200, *history);
+  }
+
   void slab(const Request& request, Response& response) {
     const auto part = std::stoul(request.matches[1].str());
     const auto id = static_cast<std::uint32_t>(std::stoul(request.matches[2].str()));
@@ -224,7 +286,7 @@ class Server::Routes {
   void slabs(const Request& request, Response& response) {
     const auto ranges = parse_slab_ranges(request.get_param_value("ids"));
     if (!ranges) return refuse(response, 400, "ids are like 0-17,1-3..65");
-    const std::string glbs = shown_.slabs(*ranges);
+    const std::string glbs = shown_.slabs(*ranges, most_slab_bytes);
     if (glbs.empty()) return refuse(response, 404, "there are no such slabs; they are gone");
     response.set_content(glbs, "model/gltf-binary");
   }

@@ -23,6 +23,10 @@ namespace loft::app {
 ///                             an edit was rejected, 503 too many wait (Retry-After): none from
 ///                             there on was taken, 507 the session could not be written: none was
 ///                             kept
+///     POST /undo, /redo       takes the last edit back, or does it again (history.h): another
+///     edit,
+///                             answered as one of /slices; 409 where there is nothing to undo
+///     GET /history            the last 1,000 edits, and whether there is something to undo
 ///     GET /surface.glb        the surface as it is; also .gltf .ply .stl .obj .off; of a file that
 ///                             is only shown, in its own format
 ///     GET /slabs/{id}.glb     a slab (io/gltf/slab_glb.h); 404 when it is gone

@@ -17,9 +17,6 @@
 
 namespace loft::app {
 
-/// So many bytes of slabs go into an answer, and what the last one has beyond.
-constexpr std::size_t most_slab_bytes = std::size_t{4} << 20U;
-
 /// What viewers see: a surface in pieces. For any number of threads.
 class Shown {
  public:
@@ -31,14 +28,17 @@ class Shown {
   /// metres_per_unit, downloads; edits where these change the surface.
   [[nodiscard]] virtual std::pair<std::string, std::uint64_t> reset_event() const = 0;
   [[nodiscard]] virtual Json status() const = 0;
+  /// The edits (History::to_json()); none where the surface does not come of any.
+  [[nodiscard]] virtual std::optional<Json> history() const { return {}; }
   /// In the order in which parts are counted; one of each name.
   [[nodiscard]] virtual std::vector<ShownLabel> labels() = 0;
 
   /// A slab as GLB (io/gltf/slab_glb.h); none where it is gone, or never was.
   [[nodiscard]] virtual std::optional<std::string> slab(std::size_t part, std::uint32_t id) = 0;
   /// Slabs as GLBs one behind the other (io::bundle_glb; each says its length), as many as fit into
-  /// an answer: at least one, if there is any of them. Empty where all are gone, or never were.
-  [[nodiscard]] virtual std::string slabs(std::span<const SlabRange> ranges) = 0;
+  /// so many bytes: at least one, if there is any of them. Empty where all are gone, or never were.
+  [[nodiscard]] virtual std::string slabs(std::span<const SlabRange> ranges,
+                                          std::size_t most_bytes) = 0;
   /// The file to download with that extension, `.ply`; none where there is no surface yet. Throws
   /// io::UnknownFormat.
   [[nodiscard]] virtual std::optional<std::string> surface(std::string_view extension) = 0;

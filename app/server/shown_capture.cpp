@@ -37,19 +37,19 @@ io::SlabView ShownCapture::view_of(const CaptureView& view, std::size_t part) co
           .metres_per_unit = setup.metres_per_unit};
 }
 
-std::string ShownCapture::slabs(std::span<const SlabRange> ranges) {
+std::string ShownCapture::slabs(std::span<const SlabRange> ranges, std::size_t most_bytes) {
   const auto view = capture_.view();
   std::string glbs;
   for (const SlabRange& range : ranges) {
-    if (range.part < view->parts.size()) append(glbs, *view, range);
-    if (glbs.size() >= most_slab_bytes) break;
+    if (range.part < view->parts.size()) append(glbs, *view, range, most_bytes);
+    if (glbs.size() >= most_bytes) break;
   }
   return glbs;
 }
 
 /// Those that lie one upon the other are one GLB, unless they have too many faces for that.
-void ShownCapture::append(std::string& glbs, const CaptureView& view,
-                          const SlabRange& range) const {
+void ShownCapture::append(std::string& glbs, const CaptureView& view, const SlabRange& range,
+                          std::size_t most_bytes) const {
   const Snapshot& snapshot = view.parts[range.part].snapshot;
   std::vector<io::BundledSlab> run;
   std::size_t faces = 0;
@@ -58,7 +58,7 @@ void ShownCapture::append(std::string& glbs, const CaptureView& view,
     run.clear();
     faces = 0;
   };
-  for (std::size_t i = 0; i < snapshot.slab_count() && glbs.size() < most_slab_bytes; ++i) {
+  for (std::size_t i = 0; i < snapshot.slab_count() && glbs.size() < most_bytes; ++i) {
     const std::uint32_t id = snapshot.slab(i).id;
     const bool is_wanted = id >= range.first && id <= range.last;
     if (is_wanted) {
@@ -67,7 +67,7 @@ void ShownCapture::append(std::string& glbs, const CaptureView& view,
     }
     if (!is_wanted || faces >= most_bundled_faces) finish_run();
   }
-  if (glbs.size() < most_slab_bytes) finish_run();
+  if (glbs.size() < most_bytes) finish_run();
 }
 
 std::vector<ShownLabel> ShownCapture::labels() {

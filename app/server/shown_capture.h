@@ -20,10 +20,12 @@ class ShownCapture : public Shown {
     return capture_.reset_event();
   }
   [[nodiscard]] Json status() const override { return capture_.status(); }
+  [[nodiscard]] std::optional<Json> history() const override { return capture_.history(); }
   /// Cost: that of the slabs that have come since it was called last.
   [[nodiscard]] std::vector<ShownLabel> labels() override;
   [[nodiscard]] std::optional<std::string> slab(std::size_t part, std::uint32_t id) override;
-  [[nodiscard]] std::string slabs(std::span<const SlabRange> ranges) override;
+  [[nodiscard]] std::string slabs(std::span<const SlabRange> ranges,
+                                  std::size_t most_bytes) override;
   [[nodiscard]] std::optional<std::string> surface(std::string_view extension) override;
   [[nodiscard]] std::optional<Slice> slice(double z) const override { return capture_.slice(z); }
   [[nodiscard]] std::vector<double> heights() const override { return capture_.heights(); }
@@ -33,7 +35,8 @@ class ShownCapture : public Shown {
     double area = 0;
     std::size_t faces = 0;
   };
-  void append(std::string& glbs, const CaptureView& view, const SlabRange& range) const;
+  void append(std::string& glbs, const CaptureView& view, const SlabRange& range,
+              std::size_t most_bytes) const;
   [[nodiscard]] io::SlabView view_of(const CaptureView& view, std::size_t part) const;
 
   using MeasuredSlabs = std::map<SlabKey, Measured>;

@@ -9,13 +9,14 @@ namespace loft::app {
 namespace {
 
 Json one_to_json(const ShownLabel& label) {
-  return {{"label", label.label},
-          {"colour", io::hexadecimal(io::srgb(io::label_colour(label.label)))},
-          {"is_skin", label.is_skin},
-          {"slices", label.slices},
-          {"volume", label.volume},
-          {"area", label.area},
-          {"faces", label.faces}};
+  return {
+      {"label", label.label},
+      {"colour", io::hexadecimal(label.colour.value_or(io::srgb(io::label_colour(label.label))))},
+      {"is_skin", label.is_skin},
+      {"slices", label.slices},
+      {"volume", label.volume},
+      {"area", label.area},
+      {"faces", label.faces}};
 }
 
 }  // namespace

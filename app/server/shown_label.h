@@ -2,19 +2,22 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "app/json.h"
 #include "mesh/mesh.h"
+#include "reconstruct/stack.h"
 
 namespace loft::app {
 
 /// What can be said of a structure that is shown; lengths in the stack's unit.
 struct ShownLabel {
   std::string label;
-  bool is_skin = false;    ///< see io::is_skin()
-  std::size_t slices = 0;  ///< that have contours of it; 0 where that is not known
+  std::optional<Colour> colour = {};  ///< that its source gives it; none: by its name
+  bool is_skin = false;               ///< see io::is_skin()
+  std::size_t slices = 0;             ///< that have contours of it; 0 where that is not known
   double volume = 0;
   double area = 0;
   std::size_t faces = 0;

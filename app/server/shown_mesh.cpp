@@ -40,12 +40,14 @@ void add(Measures& sum, const Measures& part) {
 ShownMesh::ShownMesh(std::filesystem::path file, std::string unit)
     : file_(std::move(file)),
       unit_(std::move(unit)),
-      metres_per_unit_(io::metres_per_unit(unit_).value_or(1)) {
+      metres_per_unit_(io::metres_per_unit(unit_).value_or(1)),
+      contours_(io::read_contours(file_)) {
   for (io::LabelledMesh& mesh : io::read_meshes(file_)) {
     const Measures measures = measure(mesh.mesh);
     add(sum_, measures);
     ShownLabel about{.label = mesh.label,
                      .is_skin = io::is_skin(mesh.label),
+                     .slices = contours_.count(mesh.label),
                      .volume = measures.volume,
                      .area = measures.area,
                      .faces = measures.faces};
@@ -85,7 +87,7 @@ std::pair<std::string, std::uint64_t> ShownMesh::reset_event() const {
                    {"name", file_.filename().string()},
                    {"is_patient", false},
                    {"slabs", std::move(slabs)},
-                   {"slices", Json::array()},
+                   {"slices", heights()},
                    {"counts", counts()},
                    {"volume", sum_.volume},
                    {"unit", unit_},
@@ -107,7 +109,11 @@ std::vector<ShownLabel> ShownMesh::labels() {
   return labels;
 }
 
-Json ShownMesh::counts() const { return {{"vertices", sum_.vertices}, {"faces", sum_.faces}}; }
+Json ShownMesh::counts() const {
+  Json counts{{"vertices", sum_.vertices}, {"faces", sum_.faces}};
+  if (const std::size_t slices = heights().size(); slices > 0) counts["slices"] = slices;
+  return counts;
+}
 
 std::optional<std::string> ShownMesh::slab(std::size_t part, std::uint32_t id) {
   if (part >= parts_.size() || id >= parts_[part].chunks.size()) return {};
@@ -122,19 +128,19 @@ io::SlabView ShownMesh::view_of(const Part& part) const {
           .metres_per_unit = metres_per_unit_};
 }
 
-std::string ShownMesh::slabs(std::span<const SlabRange> ranges) {
+std::string ShownMesh::slabs(std::span<const SlabRange> ranges, std::size_t most_bytes) {
   std::string glbs;
   for (const SlabRange& range : ranges) {
-    if (range.part < parts_.size()) append(glbs, range);
-    if (glbs.size() >= most_slab_bytes) break;
+    if (range.part < parts_.size()) append(glbs, range, most_bytes);
+    if (glbs.size() >= most_bytes) break;
   }
   return glbs;
 }
 
-void ShownMesh::append(std::string& glbs, const SlabRange& range) const {
+void ShownMesh::append(std::string& glbs, const SlabRange& range, std::size_t most_bytes) const {
   const Part& part = parts_[range.part];
   const std::size_t end = std::min<std::size_t>(std::size_t{range.last} + 1, part.chunks.size());
-  for (std::size_t begin = range.first; begin < end && glbs.size() < most_slab_bytes;) {
+  for (std::size_t begin = range.first; begin < end && glbs.size() < most_bytes;) {
     const std::size_t count = std::min(end - begin, most_bundled);
     std::vector<std::string> ids;
     for (std::size_t i = begin; i < begin + count; ++i)

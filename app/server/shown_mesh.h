@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/server/shown.h"
+#include "app/server/shown_contours.h"
 #include "io/gltf/slab_glb.h"
 #include "io/unit.h"
 #include "mesh/measure.h"
@@ -13,7 +14,7 @@
 namespace loft::app {
 
 /// The meshes of a file, which do not change, for viewers: in place of slabs there are chunks of
-/// faces, numbered from 0 in each mesh; there are no slices.
+/// faces, numbered from 0 in each mesh; slices, where the file knows them.
 class ShownMesh : public Shown {
  public:
   /// Throws as io::read_meshes().
@@ -23,11 +24,12 @@ class ShownMesh : public Shown {
   [[nodiscard]] Json status() const override;
   [[nodiscard]] std::vector<ShownLabel> labels() override;
   [[nodiscard]] std::optional<std::string> slab(std::size_t part, std::uint32_t id) override;
-  [[nodiscard]] std::string slabs(std::span<const SlabRange> ranges) override;
+  [[nodiscard]] std::string slabs(std::span<const SlabRange> ranges,
+                                  std::size_t most_bytes) override;
   /// The file itself.
   [[nodiscard]] std::optional<std::string> surface(std::string_view extension) override;
-  [[nodiscard]] std::optional<Slice> slice(double) const override { return {}; }
-  [[nodiscard]] std::vector<double> heights() const override { return {}; }
+  [[nodiscard]] std::optional<Slice> slice(double z) const override { return contours_.slice(z); }
+  [[nodiscard]] std::vector<double> heights() const override { return contours_.heights(); }
 
  private:
   struct Part {
@@ -38,12 +40,13 @@ class ShownMesh : public Shown {
   [[nodiscard]] static Part cut(Mesh mesh, ShownLabel about);
   [[nodiscard]] Json counts() const;
   [[nodiscard]] io::SlabView view_of(const Part& part) const;
-  void append(std::string& glbs, const SlabRange& range) const;
+  void append(std::string& glbs, const SlabRange& range, std::size_t most_bytes) const;
 
   std::filesystem::path file_;
   std::string unit_;
   double metres_per_unit_;
   std::vector<Part> parts_;
+  ShownContours contours_;
   Measures sum_;  // of all parts
   Vec3 origin_{};
 };

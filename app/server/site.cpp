@@ -55,9 +55,7 @@ std::optional<double> whole_number(std::string_view text) { return number_of<dou
 Site::Site(const Setup& setup)
     : setup_(setup), run_(std::to_string(std::random_device()()) + '.'), http_(limits(setup)) {
   http_.set_payload_max_length(setup.most_bytes);
-  http_.set_default_headers({{"Cache-Control", "no-store"},
-                             {"X-Content-Type-Options", "nosniff"},
-                             {"Referrer-Policy", "no-referrer"}});
+  http_.set_default_headers({safe_headers.begin(), safe_headers.end()});
   handle_what_is_refused();
   add_assets();
 }
@@ -205,9 +203,6 @@ std::optional<std::string> Site::take_body(const Request& request, Response& res
 void Site::add_assets() {
   for (const Asset& asset : setup_.assets)
     http_.Get(std::string(asset.path), [&asset](const Request&, Response& response) {
-      response.set_header("Content-Security-Policy",
-                          "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' "
-                          "blob:; object-src 'none'; frame-ancestors 'none'");
       response.set_content(asset.content.data(), asset.content.size(), std::string(asset.type));
     });
 }

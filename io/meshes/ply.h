@@ -9,6 +9,7 @@
 
 #include "io/meshes/labelled_mesh.h"
 #include "io/meshes/part.h"
+#include "reconstruct/slice.h"
 
 namespace loft::io {
 
@@ -25,5 +26,12 @@ void write_ply(std::ostream& out, std::span<const Part> parts, const WriteOption
 /// properties. Polygons become triangle fans. The labels that write_ply() wrote split the mesh.
 /// Throws InputError that names `name` and the place.
 [[nodiscard]] std::vector<LabelledMesh> read_ply(const std::string& content, std::string_view name);
+
+/// The contours that the vertices of such a file are points of: slices from low to high, with the
+/// contours in the order of their numbers, each with its label. Points that cleaning left out of
+/// the surface are not there. Empty where the file does not say where its vertices come from.
+/// Throws as read_ply(). Cost: O(n log n).
+[[nodiscard]] std::vector<Slice> read_ply_contours(const std::string& content,
+                                                   std::string_view name);
 
 }  // namespace loft::io

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "io/bytes/little_endian.h"
@@ -278,22 +279,125 @@ void read_body(const Header& header, Values& values, Polygons& polygons) {
   }
 }
 
-}  // namespace
+/// Where a vertex comes from, if it is a point of a contour.
+struct ContourPoint {
+  double slice = -1;
+  double contour = -1;
+  double point = -1;
+  double label = -1;
+  Vec3 place{};
 
-std::vector<LabelledMesh> read_ply(const std::string& content, std::string_view name) {
+  [[nodiscard]] bool is_whole() const { return slice >= 0 && contour >= 0 && point >= 0; }
+  [[nodiscard]] auto order() const { return std::tuple(slice, contour, point); }
+  [[nodiscard]] bool is_beside(const ContourPoint& other) const {
+    return slice == other.slice && contour == other.contour;
+  }
+};
+
+/// Where a property of a vertex goes; null: nowhere.
+double* member(ContourPoint& point, std::string_view name) {
+  if (name == "x") return &point.place[0];
+  if (name == "y") return &point.place[1];
+  if (name == "z") return &point.place[2];
+  if (name == "slice") return &point.slice;
+  if (name == "contour") return &point.contour;
+  if (name == "point") return &point.point;
+  return name == "label" ? &point.label : nullptr;
+}
+
+bool knows_contours(const Element& element) {
+  const auto has = [&](std::string_view name) {
+    return std::ranges::any_of(element.properties, [name](const Property& property) {
+      return property.name == name && !property.count;
+    });
+  };
+  return element.name == "vertex" && has("x") && has("y") && has("z") && has("slice") &&
+         has("contour") && has("point");
+}
+
+template <class Values>
+std::vector<ContourPoint> read_contour_points(const Header& header, Values& values) {
+  std::vector<ContourPoint> points;
+  for (const Element& element : header.elements) {
+    if (element.properties.empty()) continue;
+    const bool is_wanted = knows_contours(element);
+    for (std::size_t i = 0; i < element.size; ++i) {
+      ContourPoint point;
+      for (const Property& property : element.properties) {
+        double* const place = property.count ? nullptr : member(point, property.name);
+        if (place == nullptr) {
+          skip(property, values);
+        } else {
+          *place = values.next(property.type);
+        }
+      }
+      if (is_wanted && point.is_whole()) points.push_back(point);
+    }
+    if (is_wanted) break;  // nothing else matters
+  }
+  return points;
+}
+
+/// Parts that touch have vertices of their own at one point.
+void sort_and_make_unique(std::vector<ContourPoint>& points) {
+  std::ranges::stable_sort(points, {}, &ContourPoint::order);
+  const auto is_same = [](const ContourPoint& a, const ContourPoint& b) {
+    return a.order() == b.order();
+  };
+  points.erase(std::unique(points.begin(), points.end(), is_same), points.end());
+}
+
+std::vector<Slice> to_slices(std::vector<ContourPoint> points,
+                             const std::vector<std::string>& labels) {
+  sort_and_make_unique(points);
+  std::vector<Slice> slices;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const ContourPoint& point = points[i];
+    const bool is_other_slice = i == 0 || points[i - 1].slice != point.slice;
+    if (is_other_slice) slices.push_back({point.place[2], {}});
+    std::vector<Contour>& contours = slices.back().contours;
+    if (is_other_slice || !points[i - 1].is_beside(point)) {
+      contours.emplace_back();
+      const bool is_named = point.label >= 0 && point.label < static_cast<double>(labels.size());
+      if (is_named) contours.back().label = labels[static_cast<std::size_t>(point.label)];
+    }
+    contours.back().points.push_back({point.place[0], point.place[1]});
+  }
+  std::ranges::stable_sort(slices, {}, &Slice::z);
+  return slices;
+}
+
+/// Calls read(header, values) for the values behind the header.
+template <class Read>
+auto with_values(const std::string& content, std::string_view name, Read read) {
   TextReader text(content, name);
   const Header header = read_header(text);
-  Polygons polygons;
-  polygons.labels = header.labels;
   if (header.encoding == Encoding::ascii) {
     AsciiValues values(text);
-    read_body(header, values, polygons);
-  } else {
-    const std::endian order =
-        header.encoding == Encoding::little_endian ? std::endian::little : std::endian::big;
-    BinaryValues values(content, text.next_line_begin(), order, name);
-    read_body(header, values, polygons);
+    return read(header, values);
   }
+  const std::endian order =
+      header.encoding == Encoding::little_endian ? std::endian::little : std::endian::big;
+  BinaryValues values(content, text.next_line_begin(), order, name);
+  return read(header, values);
+}
+
+}  // namespace
+
+std::vector<Slice> read_ply_contours(const std::string& content, std::string_view name) {
+  return with_values(content, name, [](const Header& header, auto& values) {
+    if (std::ranges::none_of(header.elements, knows_contours)) return std::vector<Slice>();
+    return to_slices(read_contour_points(header, values), header.labels);
+  });
+}
+
+std::vector<LabelledMesh> read_ply(const std::string& content, std::string_view name) {
+  Polygons polygons = with_values(content, name, [](const Header& header, auto& values) {
+    Polygons read;
+    read.labels = header.labels;
+    read_body(header, values, read);
+    return read;
+  });
   require_valid(polygons.mesh, name);
   return split(std::move(polygons));
 }

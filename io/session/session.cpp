@@ -4,6 +4,7 @@
 #include <sqlite3.h>
 
 #include <algorithm>
+#include <fstream>
 #include <iterator>
 #include <optional>
 #include <sstream>
@@ -49,7 +50,8 @@ class Session::Journal {
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
-  void append(std::span<const Edit> edits, const std::optional<InputPosition>& input) {
+  void append(std::span<const Edit> edits, const std::optional<InputPosition>& input,
+              const std::optional<Undo>& undo) {
     if (edits.empty() && !input) return;
     const std::uint64_t count = count_;
     const std::uint64_t sum = sum_;
@@ -57,6 +59,7 @@ class Session::Journal {
       database_.in_one_transaction([&] {
         for (const Edit& edit : edits) insert(to_line(edit));
         if (input) keep(*input);
+        if (undo) keep(count, *undo);
         database_.check_in_place();
       });
     } catch (...) {
@@ -80,6 +83,25 @@ class Session::Journal {
       if (!is_right || !read.problems.empty()) fail_damaged(expected);
       take(expected, std::move(read.edit));
     }
+  }
+
+  [[nodiscard]] Edit edit(std::uint64_t number) const {
+    const Statement row = database_.prepare("select line from edits where number = ?");
+    sqlite3_bind_int64(row.get(), 1, static_cast<sqlite3_int64>(number));
+    if (!database_.step(row)) fail_damaged(number);
+    EditLine read = parse_edit_line(SessionDatabase::text(row, 0));
+    if (!read.problems.empty()) fail_damaged(number);
+    return std::move(read.edit);
+  }
+
+  [[nodiscard]] std::map<std::uint64_t, Undo> undos() const {
+    std::map<std::uint64_t, Undo> all;
+    if (database_.number("select count(*) from sqlite_schema where name = 'undos'") == 0)
+      return all;  // an older version of loft made it
+    const Statement rows = database_.prepare("select number, of, is_redo from undos");
+    while (database_.step(rows))
+      all[unsigned_number(rows, 0)] = {unsigned_number(rows, 1), unsigned_number(rows, 2) != 0};
+    return all;
   }
 
   [[nodiscard]] std::vector<std::string> salvage(const Take& take) const {
@@ -183,6 +205,9 @@ class Session::Journal {
     database_.execute(
         "create table if not exists inputs (path text primary key, place integer not null,"
         " checksum integer not null) strict");
+    database_.execute(
+        "create table if not exists undos (number integer primary key, of integer not null,"
+        " is_redo integer not null) strict");
     const Statement last =
         database_.prepare("select number, checksum from edits order by number desc limit 1");
     if (database_.step(last)) {
@@ -216,6 +241,14 @@ class Session::Journal {
     database_.step(row);
   }
 
+  void keep(std::uint64_t number, const Undo& undo) const {
+    const Statement row = database_.prepare("insert or replace into undos values (?, ?, ?)");
+    sqlite3_bind_int64(row.get(), 1, static_cast<sqlite3_int64>(number));
+    sqlite3_bind_int64(row.get(), 2, static_cast<sqlite3_int64>(undo.of));
+    sqlite3_bind_int64(row.get(), 3, undo.is_redo ? 1 : 0);
+    database_.step(row);
+  }
+
   /// How many edits there are, by the number of the last; nothing if that is damaged.
   [[nodiscard]] std::optional<std::uint64_t> count_up_to(const Statement& last) const {
     const std::optional<bool> is_there = database_.try_step(last);
@@ -245,8 +278,13 @@ Session::Session(Session&&) noexcept = default;
 Session& Session::operator=(Session&&) noexcept = default;
 
 void Session::append(std::span<const Edit> edits, const std::optional<InputPosition>& input) {
-  journal_->append(edits, input);
+  journal_->append(edits, input, {});
 }
+void Session::append(const Edit& edit, const Undo& undo) {
+  journal_->append(std::span(&edit, 1), {}, undo);
+}
+Edit Session::edit(std::uint64_t number) const { return journal_->edit(number); }
+std::map<std::uint64_t, Undo> Session::undos() const { return journal_->undos(); }
 std::optional<InputPosition> Session::input_position(const std::string& path) const {
   return journal_->input_position(path);
 }
@@ -260,5 +298,13 @@ void Session::set_settings(const std::map<std::string, std::string>& settings) {
   journal_->set_settings(settings);
 }
 std::vector<std::string> Session::check() const { return journal_->check(); }
+
+bool is_session_file(const std::filesystem::path& path) {
+  constexpr std::string_view mark = "SQLite format 3";
+  std::string head(mark.size(), '\0');
+  std::ifstream file(path, std::ios::binary);
+  file.read(head.data(), static_cast<std::streamsize>(head.size()));
+  return file && head == mark;
+}
 
 }  // namespace loft::io

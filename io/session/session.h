@@ -25,6 +25,14 @@ struct InputPosition {
   friend bool operator==(const InputPosition&, const InputPosition&) = default;
 };
 
+/// What an edit is that undid another one, or did it again.
+struct Undo {
+  std::uint64_t of = 0;  ///< the number of that one
+  bool is_redo = false;
+
+  friend bool operator==(const Undo&, const Undo&) = default;
+};
+
 /// A session does not hold what was written into it.
 class DamagedSession : public FileError {
  public:
@@ -52,6 +60,8 @@ class Session {
   /// error, the file was deleted or replaced meanwhile); then none of them is kept.
   /// `input`, where they came from, is kept with them, instead of what was kept for that file.
   void append(std::span<const Edit> edits, const std::optional<InputPosition>& input = {});
+  /// Adds an edit that undoes another one, or does it again; in the same way.
+  void append(const Edit& edit, const Undo& undo);
   /// Calls take() for each edit, in order; with little in memory. Throws DamagedSession where the
   /// journal is damaged, naming the edit: each one has a checksum.
   void for_each(const Take& take) const;
@@ -59,6 +69,11 @@ class Session {
   /// Where the header is damaged, a copy is read that has another; a log that is missing is named.
   [[nodiscard]] std::vector<std::string> salvage(const Take& take) const;
   [[nodiscard]] std::uint64_t edit_count() const;
+  /// One edit by its number. Throws DamagedSession where it is damaged or missing; whether those
+  /// before it are sound is not looked at.
+  [[nodiscard]] Edit edit(std::uint64_t number) const;
+  /// The edits that undid others, by their numbers. Not checked: the edits alone say what there is.
+  [[nodiscard]] std::map<std::uint64_t, Undo> undos() const;
   /// How far a file has been taken in; none if nothing came from it. Needs Access::write.
   [[nodiscard]] std::optional<InputPosition> input_position(const std::string& path) const;
 
@@ -74,5 +89,8 @@ class Session {
   class Journal;
   std::unique_ptr<Journal> journal_;
 };
+
+/// Whether a file begins as those of sessions do, whatever it is called.
+[[nodiscard]] bool is_session_file(const std::filesystem::path& path);
 
 }  // namespace loft::io

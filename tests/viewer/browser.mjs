@@ -22,7 +22,7 @@ export class Viewer {
     viewer.page.on('pageerror', (error) => viewer.complaints.push(String(error)));
     viewer.page.on('console', (message) => {
       // A slab may be gone before it could be fetched: the next event says so.
-      const isGone = /\/(slabs|history)/.test(message.location().url) && message.text().includes('404');
+      const isGone = message.location().url.includes('/slabs/') && message.text().includes('404');
       if (message.type() === 'error' && !isGone) viewer.complaints.push(message.text());
     });
     viewer.page.on('request', (request) => {

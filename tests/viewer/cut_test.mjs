@@ -67,8 +67,8 @@ async function areas(colours) {
 }
 
 test('a cut at a slice is filled as its contours are, seen from either side', async () => {
-  await show(...[0, 4, 8].map((z) => line(z, [square(10), square(4), square(2, [7, 7])], ['tissue', 'organ', 'node'])));
-  const colours = await Promise.all(['tissue', 'organ'].map(colourOf));
+  await show(...[0, 4, 8].map((z) => line(z, [square(10), square(4), square(2, [7, 7])], ['block', 'organ', 'node'])));
+  const colours = await Promise.all(['block', 'organ'].map(colourOf));
   await press('o', '3', 'x');
   assert.equal(await viewer.text('cut-text'), 'slice 4 mm');
   const above = await areas(colours);

@@ -11,5 +11,5 @@ if [ ! node_modules/.package-lock.json -nt package-lock.json ]; then
   npm ci --no-audit --no-fund
 fi
 export LOFT="${LOFT:-$PWD/../../build/release/app/loft}"
-[ $# -gt 0 ] || set -- viewer_test.mjs labels_test.mjs cut_test.mjs measure_test.mjs live_test.mjs
+[ $# -gt 0 ] || set -- viewer_test.mjs labels_test.mjs many_slabs_test.mjs contours_test.mjs cut_test.mjs measure_test.mjs live_test.mjs
 for test; do node --test "$test"; done

@@ -2,6 +2,7 @@
 // What the viewer shows while slabs come and go: node --test slabs_test.mjs
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
+import { requestsFor } from '../../viewer/src/bundles.js';
 import { Slabs } from '../../viewer/src/slabs.js';
 
 // A stack's slabs and a picture of what is shown.
@@ -82,6 +83,28 @@ test('After a reset what is shown stays until the new slabs are there', () => {
   assert.deepEqual([...picture.shown], before);
   picture.arrive(again);
   assert.deepEqual([...picture.shown], [again]);
+});
+
+test('Many slabs are asked for in ranges that have none of the others', () => {
+  const known = new Set(['0-1', '0-3', '0-4', '0-5', '7-2', '7-3']);
+  const wanted = ['7-2', '0-5', '0-1', '0-3', '7-3'].map((id) => ({ id }));
+  const [only, ...more] = requestsFor(wanted, (id) => known.has(id));
+  assert.deepEqual(more, []);
+  assert.equal(only.ranges.join(), '7-2..3,0-1..3,0-5');
+  assert.deepEqual(new Set(only.slabs), new Set(wanted));
+});
+
+test('Requests for many slabs are short, and all together they are for all', () => {
+  const wanted = [];
+  for (let part = 0; part < 900; ++part)
+    for (let id = 0; id < 40; ++id) wanted.push({ id: `${part}-${3 * id + 7}` });
+  const ids = new Set(wanted.map(({ id }) => id));
+  const requests = requestsFor(wanted, (id) => ids.has(id));
+  assert.deepEqual(new Set(requests.flatMap(({ slabs }) => slabs)), new Set(wanted));
+  assert.equal(requests.reduce((sum, { slabs }) => sum + slabs.length, 0), wanted.length);
+  for (const { ranges, slabs } of requests)
+    assert.ok(slabs.length <= 2048 && ranges.join().length < 7000);
+  assert.ok(requests.length < 24);
 });
 
 // A small generator: the same numbers for the same seed.

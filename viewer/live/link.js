@@ -15,7 +15,7 @@ export class Link extends EventTarget {
   #timer;
   #waiting = [];  // {tab, edit, key, resolve}
   #isSending = false;
-  #token = '';
+  #token = new URLSearchParams(location.hash.slice(1)).get('token') ?? '';
 
   constructor() {
     super();

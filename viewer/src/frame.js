@@ -23,6 +23,22 @@ export class Frame {
     this.#scale = size > 0 ? 10 ** -Math.floor(Math.log10(size)) : 1;
   }
 
+  // The same about a slice of a stack that is so high; undefined where the slice has no points.
+  static around({ z, contours }, height, metresPerUnit) {
+    const points = contours.flat();
+    if (points.length === 0) return undefined;
+    const [x, y] = [0, 1].map((axis) => {
+      let [low, high] = [Infinity, -Infinity];
+      for (const point of points) {
+        low = Math.min(low, point[axis]);
+        high = Math.max(high, point[axis]);
+      }
+      return { middle: (low + high) / 2, size: high - low };
+    });
+    const origin = [x.middle, z, -y.middle].map((value) => value * metresPerUnit);
+    return new Frame(metresPerUnit, origin, Math.hypot(x.size, y.size, height) * metresPerUnit);
+  }
+
   // The positions of a node as the scene has them, changed in place.
   place(positions, translation) {
     for (let i = 0; i < positions.length; ++i) {

@@ -12,7 +12,8 @@ export class History {
   #timer;
   #isThere = true;  // until the server says that it has none
   #unit = '';
-  #canLookBack = false;
+  #name;  // of the file
+  #isKept = false;  // it is a session
 
   constructor() {
     this.#list = new List(element('history'), (row, edit) => this.#draw(row, edit),
@@ -25,11 +26,19 @@ export class History {
   redo() { return this.#go('redo'); }
 
   // Another surface: in a capture there are `edits`.
-  reset({ edits }, unit) {
+  reset({ edits, name, kind }, unit) {
     this.#unit = unit;
+    this.#name = name;
+    this.#isKept = kind === 'session';
+    element('history-then').textContent = '';
     this.#isThere = edits !== undefined;
     element('history-section').hidden = true;
     this.look();
+  }
+
+  // What the server says of itself: whether a capture is kept in a session.
+  showStatus({ session }) {
+    this.#isKept ||= session === true;
   }
 
   // Edits were made: has a look at the history soon, however many come.
@@ -46,12 +55,11 @@ export class History {
     if (history) this.#show(history);
   }
 
-  #show({ edits, can_undo: canUndo, can_redo: canRedo, can_look_back: canLookBack = false }) {
+  #show({ edits, can_undo: canUndo, can_redo: canRedo }) {
     element('history-section').hidden = false;
     element('undo').disabled = !canUndo;
     element('redo').disabled = !canRedo;
     element('history-count').textContent = count(edits.length);
-    this.#canLookBack = canLookBack;
     this.#list.show([...edits].reverse());
   }
 
@@ -68,11 +76,9 @@ export class History {
     if (row.textContent !== words) row.textContent = words;
   }
 
-  // The surface as it was after that edit, as a file.
+  // How to look at the surface as it was after that edit.
   #choose({ number }) {
-    const link = element('history-then');
-    link.hidden = !this.#canLookBack;
-    link.href = `surface.glb?at=${number}`;
-    link.textContent = `Surface after edit ${count(number)}`;
+    if (this.#isKept && this.#name)
+      element('history-then').textContent = `What there was then: loft view ${this.#name} --at ${number}`;
   }
 }

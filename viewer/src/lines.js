@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Contours as thin lines, many slices to a draw call; only the page whose slice changed is redone.
-import { BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments,
+import { Box3, BufferGeometry, Float32BufferAttribute, Group, LineBasicMaterial, LineSegments,
          Vector3 } from 'three';
 
 const slicesPerPage = 64;
@@ -44,6 +44,7 @@ class Page {
 export class Lines {
   #pages = [];
   #pageOf = new Map();
+  #boxes = new Map();  // by z
   #group;
 
   constructor(scene) {
@@ -55,11 +56,19 @@ export class Lines {
 
   get isShown() { return this.#group.visible; }
   set isShown(isShown) { this.#group.visible = isShown; }
+  // Around all of them.
+  get box() {
+    const all = new Box3();
+    for (const box of this.#boxes.values()) all.union(box);
+    return all;
+  }
   has(z) { return this.#pageOf.has(z); }
 
   set(slice, frame) {
     const page = this.#pageOf.get(slice.z) ?? this.#pageWithRoom();
-    page.slices.set(slice.z, segmentsOf(slice, frame));
+    const segments = segmentsOf(slice, frame);
+    page.slices.set(slice.z, segments);
+    this.#boxes.set(slice.z, new Box3().setFromArray(segments));
     page.isStale = true;
     this.#pageOf.set(slice.z, page);
   }
@@ -68,6 +77,7 @@ export class Lines {
     const page = this.#pageOf.get(z);
     if (!page) return;
     page.slices.delete(z);
+    this.#boxes.delete(z);
     page.isStale = true;
     this.#pageOf.delete(z);
   }

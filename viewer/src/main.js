@@ -61,7 +61,10 @@ function help() {
 function listen() {
   events.addEventListener('connected', () => panel.showConnected());
   events.addEventListener('lost', () => panel.showLost());
-  events.addEventListener('status', ({ detail }) => panel.showStatus(detail));
+  events.addEventListener('status', ({ detail }) => {
+    panel.showStatus(detail);
+    history.showStatus(detail);
+  });
   events.addEventListener('reset', ({ detail }) => {
     panel.showKind(detail);
     figures.reset(detail);

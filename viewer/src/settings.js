@@ -51,6 +51,7 @@ export class Settings extends EventTarget {
     const slider = element('slice');
     slider.max = Math.max(heights.length - 1, 0);
     for (const id of ['contours', 'slice-on', 'slice']) element(id).disabled = heights.length === 0;
+    element('no-contours').hidden = heights.length > 0;
     this.#z = this.#isChosen ? this.#nearest(this.#z) : heights[Math.floor(heights.length / 2)];
     slider.value = Math.max(heights.indexOf(this.#z), 0);
     this.#show();

@@ -104,7 +104,7 @@ export class View {
     this.#contours.reset(state.slices);
     this.forgetPick();
     this.#lines.clear();
-    this.#fetch(this.#slabs.reset(state.slabs, performance.now()));
+    this.#fetchMany(this.#slabs.reset(state.slabs, performance.now()));
     this.#panel.showDownloads(state.downloads);
     this.#tell(state);
   }
@@ -129,7 +129,7 @@ export class View {
     this.#settings = settings;
     this.#mode = settings.colour;
     this.#isStale = true;
-    if (!this.#frame) return;
+    if (!this.#frame) return this.#beginBare();
     this.#applyContours(settings.hasContours);
     this.#applySlice(settings.slice);
     this.stage.invalidate();
@@ -291,6 +291,19 @@ export class View {
     if (this.#settings) this.apply(this.#settings);
   }
 
+  // There are slices and no surface: then they are what is to be seen.
+  get #isBare() { return this.#slabs.size === 0 && this.heights.length > 0; }
+
+  #beginBare() {
+    if (this.#isBare) this.heights.forEach((z) => this.#contours.ask(z));
+  }
+
+  #beginWith(slice) {
+    const { heights } = this;
+    this.#frame = Frame.around(slice, heights.at(-1) - heights[0], this.#metresPerUnit);
+    if (this.#frame && this.#settings) this.apply(this.#settings);
+  }
+
   // While much is on its way frames are few: each of them holds up the rest.
   #refreshLater() {
     this.#isStale = true;
@@ -336,7 +349,7 @@ export class View {
   #box(isIn = () => true) {
     const all = new Box3();
     for (const slot of this.#slots.values()) if (isIn(slot)) all.union(slot.box);
-    return all;
+    return this.#isBare ? all.union(this.#lines.box) : all;
   }
 
   #applyLook(what) {
@@ -373,8 +386,8 @@ export class View {
   }
 
   #applyContours(areShown) {
-    this.#lines.isShown = areShown;
-    if (!areShown) return;
+    this.#lines.isShown = areShown || this.#isBare;
+    if (!this.#lines.isShown) return;
     for (const z of this.heights) {
       const slice = this.#contours.get(z);
       if (!slice) this.#contours.ask(z);
@@ -383,8 +396,10 @@ export class View {
   }
 
   #draw(slice) {
+    if (!this.#frame && this.#isBare) return this.#beginWith(slice);
     if (!this.#frame || !this.#lines.isShown) return;
     this.#lines.set(this.#shownPart(slice), this.#frame);
+    if (this.#isBare) this.#isStale = true;  // so is the box
     this.stage.invalidate();
   }
 
@@ -412,6 +427,6 @@ export class View {
   }
 
   #showPending() {
-    this.#panel.showPending(this.#slabs.pending, this.#slabs.size === 0);
+    this.#panel.showPending(this.#slabs.pending, this.#slabs.size === 0 && !this.#isBare);
   }
 }

@@ -5,9 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/meshes.h"
 #include "tests/app/running.h"
@@ -19,6 +24,7 @@ using namespace testing;
 using nlohmann::json;
 using ::testing::HasSubstr;
 using ::testing::MatchesRegex;
+using ::testing::Not;
 
 std::string tower(int count) {
   std::string lines;
@@ -69,6 +75,97 @@ TEST(View, ShowsAllFacesOfAMeshInChunks) {
   EXPECT_EQ(running.interrupt(), 0);
 }
 
+/// Four slices of a cube of 3, and a smaller one in it.
+std::string two_cubes() {
+  std::string lines;
+  for (int z = 0; z < 4; ++z) {
+    std::string contours = R"([[0, 0], [3, 0], [3, 3], [0, 3]])";
+    std::string labels = R"("Body 1")";
+    if (z < 2) {
+      contours += ", [[1, 1], [2, 1], [2, 2], [1, 2]]";
+      labels += R"(, "heart")";
+    }
+    lines += R"({"z": )" + std::to_string(z) + R"(, "contours": [)" + contours +
+             R"(], "labels": [)" + labels + "]}\n";
+  }
+  return lines;
+}
+
+/// GLBs that follow one another, each in a file.
+std::vector<std::string> apart(std::string_view glbs) {
+  std::vector<std::string> files;
+  while (glbs.size() >= 12) {
+    std::uint32_t size = 0;
+    for (std::size_t i = 0; i < 4; ++i)
+      size |= std::uint32_t{static_cast<unsigned char>(glbs[8 + i])} << (8 * i);
+    files.emplace_back(glbs.substr(0, size));
+    glbs.remove_prefix(std::min<std::size_t>(size, glbs.size()));
+  }
+  return files;
+}
+
+json extras_of(const std::string& glb) {
+  const std::size_t end = glb.find("BIN", 20);
+  return json::parse(
+      glb.substr(20, end == std::string::npos ? end : end - 24))["nodes"][0]["extras"];
+}
+
+/// Asks for all slabs until all are there; how many faces they have together.
+std::size_t bundled_face_count(const Folder& folder, httplib::Client& client) {
+  const auto number = [](const json& slab) {
+    return std::stoi(slab["id"].get<std::string>().substr(2));
+  };
+  std::set<int> missing;
+  for (const json& slab : first_event(client)["slabs"]) missing.insert(number(slab));
+  std::size_t count = 0;
+  while (!missing.empty()) {
+    const auto answer = client.Get("/slabs?ids=0-" + std::to_string(*missing.begin()) + ".." +
+                                   std::to_string(*missing.rbegin()));
+    EXPECT_EQ(answer->status, 200);
+    if (answer->status != 200) return 0;
+    for (const std::string& glb : apart(answer->body)) {
+      for (const json& slab : extras_of(glb)["slabs"]) EXPECT_EQ(missing.erase(number(slab)), 1U);
+      std::ofstream(folder / "slab.glb", std::ios::binary) << glb;
+      count += io::read_mesh(folder / "slab.glb").faces.size();
+    }
+  }
+  return count;
+}
+
+TEST(View, SendsManySlabsAtOnce) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << tower(1200);
+  ASSERT_EQ(run(folder, "stream --session kept -o out.ply").exit_code, 0);
+  for (const char* file : {"kept", "out.ply"}) {
+    Running running(folder, {"view", file, "--port", "0"});
+    const auto client = running.client();
+    const std::size_t faces = io::read_mesh(folder / "out.ply").faces.size();
+    EXPECT_EQ(bundled_face_count(folder, *client), faces) << file;
+    EXPECT_EQ(client->Get("/slabs?ids=0-99999,3-0..7")->status, 404);
+    for (const char* wrong : {"", "0", "0-", "0-1,", "0-3..1", "0-1234567890", "a-1", "0-1;0-2"})
+      EXPECT_EQ(client->Get(std::string("/slabs?ids=") + wrong)->status, 400) << wrong;
+    EXPECT_EQ(client->Get("/slabs")->status, 400);
+  }
+}
+
+TEST(View, ABundleHasWhatEachOfItsSlabsHas) {
+  const Folder folder;
+  std::ofstream(folder / "stdin") << two_cubes();
+  ASSERT_EQ(run(folder, "stream --session kept").exit_code, 0);
+  Running running(folder, {"view", "kept", "--port", "0"});
+  const auto client = running.client();
+  for (const std::string& bundle : apart(client->Get("/slabs?ids=0-0..99,1-0..99")->body)) {
+    const json all = extras_of(bundle);
+    for (const json& slab : all["slabs"]) {
+      const auto alone = client->Get("/slabs/" + slab["id"].get<std::string>() + ".glb");
+      const json own = extras_of(alone->body);
+      EXPECT_EQ(all["label"], own["label"]);
+      for (const char* what : {"low", "high", "edit", "confidence"})
+        EXPECT_EQ(slab[what], own[what]) << what;
+    }
+  }
+}
+
 TEST(View, GivesTheFileItselfAndTakesNothing) {
   const Folder folder;
   std::ofstream(folder / "tower.ndjson") << tower(3);
@@ -95,22 +192,6 @@ TEST(View, ShowsTheSurfaceOfASession) {
   EXPECT_EQ(client->Post("/slices", tower(1), "application/x-ndjson")->status, 405);
   EXPECT_EQ(running.interrupt(), 0);
   EXPECT_EQ(content(folder / "kept"), before);
-}
-
-/// Four slices of a cube of 3, and a smaller one in it.
-std::string two_cubes() {
-  std::string lines;
-  for (int z = 0; z < 4; ++z) {
-    std::string contours = R"([[0, 0], [3, 0], [3, 3], [0, 3]])";
-    std::string labels = R"("Body 1")";
-    if (z < 2) {
-      contours += ", [[1, 1], [2, 1], [2, 2], [1, 2]]";
-      labels += R"(, "heart")";
-    }
-    lines += R"({"z": )" + std::to_string(z) + R"(, "contours": [)" + contours +
-             R"(], "labels": [)" + labels + "]}\n";
-  }
-  return lines;
 }
 
 void expect_two_cubes(httplib::Client& client, std::size_t slices, std::size_t inner_slices) {
@@ -156,10 +237,79 @@ TEST(View, TellsOfTheLabelsOfASession) {
   expect_two_cubes(*client, 4, 2);
 }
 
+TEST(View, ShowsTheContoursThatAPlyKnows) {
+  const Folder folder;
+  std::ofstream(folder / "cubes.ndjson") << two_cubes();
+  ASSERT_EQ(run(folder, "reconstruct cubes.ndjson -o cubes.ply -o cubes.stl -q").exit_code, 0);
+  Running running(folder, {"view", "cubes.ply", "--port", "0"});
+  const auto client = running.client();
+  EXPECT_EQ(first_event(*client)["slices"], json::array({0.0, 1.0, 2.0, 3.0}));
+  const json slice = json::parse(client->Get("/slices?z=1")->body);
+  EXPECT_EQ(slice["labels"], json::array({"Body 1", "heart"}));
+  EXPECT_EQ(slice["contours"][1], json::parse("[[1.0, 1.0], [2.0, 1.0], [2.0, 2.0], [1.0, 2.0]]"));
+  EXPECT_EQ(client->Get("/slices?z=1.5")->status, 404);
+  Running without(folder, {"view", "cubes.stl", "--port", "0"});
+  EXPECT_EQ(first_event(*without.client())["slices"], json::array());
+}
+
+TEST(View, ShowsAStackBeforeThereIsASurface) {
+  const Folder folder;
+  std::ofstream(folder / "cubes.ndjson") << R"({"stack": {"unit": "cm"}})" << '\n' << two_cubes();
+  Running running(folder, {"view", "cubes.ndjson", "--port", "0"});
+  const auto client = running.client();
+  const json shown = first_event(*client);
+  EXPECT_EQ(shown["kind"], "file");
+  EXPECT_EQ(shown["unit"], "cm");
+  EXPECT_EQ(shown["slices"], json::array({0.0, 1.0, 2.0, 3.0}));
+  EXPECT_EQ(shown["slabs"], json::array());
+  EXPECT_EQ(shown["downloads"], json::array());
+  EXPECT_EQ(json::parse(client->Get("/slices?z=1")->body)["contours"].size(), 2U);
+  const json labels = json::parse(client->Get("/labels")->body)["labels"];
+  ASSERT_EQ(labels.size(), 2U);
+  EXPECT_EQ(labels[1]["slices"], 2);
+  EXPECT_EQ(client->Get("/surface.glb")->status, 404);
+  EXPECT_EQ(client->Get("/slabs?ids=0-0..9")->status, 404);
+  EXPECT_EQ(client->Get("/history")->status, 404);
+}
+
+/// What is between two marks of a file.
+std::string between(const std::string& text, const std::string& before, const std::string& after) {
+  const std::size_t begin = text.find(before) + before.size();
+  return text.substr(begin, text.find(after, begin) - begin);
+}
+
+TEST(View, ExportsAPageThatNeedsNoServer) {
+  const Folder folder;
+  std::ofstream(folder / "cubes.ndjson") << two_cubes();
+  ASSERT_EQ(run(folder, "reconstruct cubes.ndjson -o cubes.glb -o cubes.ply -q").exit_code, 0);
+  const Outcome exported = run(folder, "view cubes.glb --export page");
+  if (exported.err.find("built without its viewer") != std::string::npos) GTEST_SKIP();
+  ASSERT_EQ(exported.exit_code, 0) << exported.err;
+  EXPECT_EQ(content(folder / "page/surface.glb"), content(folder / "cubes.glb"));
+  EXPECT_EQ(json::parse(content(folder / "page/labels.json"))["labels"].size(), 2U);
+  const std::string page = content(folder / "page/index.html");
+  EXPECT_THAT(page, Not(HasSubstr("module")));
+  EXPECT_THAT(page, Not(HasSubstr("http")));
+  const json contents =
+      json::parse(between(content(folder / "page/contents.js"), "loftContents(", ");\n"));
+  EXPECT_EQ(contents["slabs"].size(), 2U);
+  EXPECT_EQ(contents["reset"]["name"], "cubes.glb");
+  EXPECT_EQ(contents["slabs"][0].get<std::string>().substr(0, 5), "Z2xUR");  // glTF
+
+  const Outcome refused = run(folder, "view cubes.ply --export page");
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_THAT(refused.err, HasSubstr("page is not empty"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "page/surface.ply"));
+  EXPECT_EQ(run(folder, "view cubes.ply --export page --force").exit_code, 0);
+  EXPECT_EQ(content(folder / "page/surface.ply"), content(folder / "cubes.ply"));
+  EXPECT_EQ(run(folder, "view cubes.ply --export cubes.glb").exit_code, 2);
+  EXPECT_EQ(run(folder, "view cubes.ndjson --export contours").exit_code, 0);
+}
+
 TEST(View, SaysWhatItCannotShow) {
   const Folder folder;
-  std::ofstream(folder / "stack.ndjson") << tower(2);
-  for (const char* file : {"stack.ndjson", "nothing.ply", "nothing"}) {
+  std::ofstream(folder / "words.txt") << "nothing to be seen";
+  for (const char* file : {"words.txt", "nothing.ply", "nothing"}) {
     const Outcome outcome = run(folder, std::string("view --port 0 ") + file);
     EXPECT_EQ(outcome.exit_code, 3) << file;
     EXPECT_THAT(outcome.err, HasSubstr(file));

@@ -177,10 +177,10 @@ TEST(Interrupts, EndWhateverIsDoneWithinTwoSeconds) {
 TEST(Tokens, AreNeededForChangesFromBeyondThisMachine) {
   const Folder folder;
   Running running(folder, {"stream", "--no-input", "--port", "0", "--host", "0.0.0.0"});
-  ASSERT_TRUE(running.says("edits need this token: "));
+  ASSERT_TRUE(running.says("/#token="));
   const std::string words = content(folder / "err.txt");
   const int port = std::atoi(words.c_str() + words.find("0.0.0.0:") + 8);
-  const std::string token = words.substr(words.find("token: ") + 7, 32);
+  const std::string token = words.substr(words.find("#token=") + 7, 32);
   httplib::Client client("127.0.0.1", port);
   EXPECT_EQ(client.Post("/slices", leaning(1), "text/plain")->status, 401);
   const auto with = [&](const std::string& given) {
@@ -188,9 +188,62 @@ TEST(Tokens, AreNeededForChangesFromBeyondThisMachine) {
     return client.Post("/slices", headers, leaning(1), "text/plain")->status;
   };
   EXPECT_EQ(with(token.substr(1)), 401);
+  EXPECT_EQ(client.Post("/undo", "", "text/plain")->status, 401);
+  EXPECT_EQ(client.Post("/redo", "", "text/plain")->status, 401);
   EXPECT_EQ(with(token), 200);
   EXPECT_EQ(client.Get("/status")->status, 200);
   EXPECT_EQ(client.Get("/status", {{"Host", "example.com"}})->status, 403);
+}
+
+/// Of what a page of another site could make a browser send.
+TEST(OtherSites, CannotChangeAnything) {
+  const Folder folder;
+  Running running(folder, {"stream", "--no-input", "--port", "0"});
+  const auto client = running.client();
+  ASSERT_EQ(client->Post("/slices", leaning(1), "text/plain")->status, 200);
+  const std::vector<httplib::Headers> foreign{{{"Origin", "http://example.com"}},
+                                              {{"Origin", "null"}},
+                                              {{"Sec-Fetch-Site", "cross-site"}},
+                                              {{"Sec-Fetch-Site", "same-site"}},
+                                              {{"Host", "example.com"}}};
+  for (const httplib::Headers& headers : foreign)
+    for (const char* path : {"/slices", "/undo", "/redo"})
+      EXPECT_EQ(client->Post(path, headers, leaning(2), "text/plain")->status, 403) << path;
+  EXPECT_EQ(json::parse(client->Get("/status")->body)["edits"], 1);
+}
+
+void expect_safe(const httplib::Headers& headers, const std::string& what) {
+  const auto value = [&](const char* name) {
+    EXPECT_EQ(headers.count(name), 1U) << what << ": " << name;
+    return headers.count(name) == 0 ? "" : headers.find(name)->second;
+  };
+  EXPECT_EQ(value("X-Content-Type-Options"), "nosniff") << what;
+  EXPECT_EQ(value("Referrer-Policy"), "no-referrer") << what;
+  const std::string policy = value("Content-Security-Policy");
+  for (const char* words : {"default-src 'none'", "script-src 'self'", "frame-ancestors 'none'",
+                            "base-uri 'none'", "form-action 'none'"})
+    EXPECT_THAT(policy, HasSubstr(words)) << what;
+  EXPECT_THAT(policy, Not(HasSubstr("http"))) << what;
+  EXPECT_THAT(policy, Not(HasSubstr("unsafe"))) << what;
+  EXPECT_THAT(policy, Not(HasSubstr("*"))) << what;
+}
+
+TEST(OtherSites, GetNoAnswerThatTheyCouldUse) {
+  const Folder folder;
+  for (const char* command : {"stream", "live"}) {
+    std::vector<std::string> words{command, "--port", "0"};
+    if (words[0] == "stream") words.emplace_back("--no-input");
+    Running running(folder, words);
+    const auto client = running.client();
+    for (const char* path : {"/", "/viewer.js", "/live.js", "/icon.svg", "/status", "/labels",
+                             "/history", "/slabs/0-1.glb", "/slabs?ids=x", "/tabs", "/nothing"})
+      expect_safe(client->Get(path)->headers, path);
+    expect_safe(client->Post("/slices", "x", "text/plain")->headers, "POST");
+    expect_safe(client->Put("/slices", "x", "text/plain")->headers, "PUT");
+    expect_safe(client->Get("/", {{"Host", "example.com"}})->headers, "another host");
+    expect_safe(client->Get("/" + std::string(9000, 'a'))->headers, "a long address");
+    expect_safe(client->Get("/", {{"A", std::string(70'000, 'a')}})->headers, "a long head");
+  }
 }
 
 }  // namespace

@@ -12,11 +12,14 @@
 #include <vector>
 
 #include "io/gltf/gltf.h"
-#include "io/meshes/grid.h"
 #include "io/gltf/meshopt.h"
+#include "io/meshes/grid.h"
 #include "io/meshes/part.h"
+#include "io/stack.h"
+#include "io/surfaces.h"
 #include "mesh/vec3.h"
 #include "reconstruct/defect.h"
+#include "reconstruct/reconstruct.h"
 #include "tests/io/shapes.h"
 
 namespace loft::io {
@@ -116,6 +119,18 @@ TEST(Compressed, WhatTouchesStillDoes) {
         shared.insert(point);
     EXPECT_EQ(shared.size(), 8U);
   }
+}
+
+TEST(Compressed, WhatRoundingBreaksIsMended) {
+  const Reconstructed skull = reconstruct(read_stack(LOFT_SAMPLES "/skull.ndjson"), {});
+  const Part part{"", &skull.surface};
+  const WriteOptions options{.compression = Compression::quantize};
+  EXPECT_FALSE(check(meshes_in(glb_of({part}, Compression::quantize))[0].mesh).empty());
+  std::ostringstream out;
+  const Written written = write(out, ".glb", {&part, 1}, options);
+  EXPECT_GT(written.rounding.faults, 0U);
+  EXPECT_EQ(written.rounding.left, 0U);
+  EXPECT_TRUE(check(meshes_in(out.str())[0].mesh).empty());
 }
 
 TEST(Compressed, PointsAndPlanesHaveAGrid) {
