@@ -42,7 +42,7 @@ async function press(...keys) {
 
 // Of a label, as the list has it.
 async function colourOf(label) {
-  const item = viewer.page.locator('#labels [role="option"]', { hasText: label }).locator('.swatch');
+  const item = viewer.page.locator('#labels [role="option"]:visible', { hasText: label }).locator('.swatch');
   const text = await item.evaluate((swatch) => getComputedStyle(swatch).backgroundColor);
   return text.match(/\d+/g).map(Number);
 }
@@ -73,7 +73,14 @@ test('a cut at a slice is filled as its contours are, seen from either side', as
   assert.equal(await viewer.text('cut-text'), 'slice 4 mm');
   const above = await areas(colours);
   assert.ok(Math.abs(above[0] / above[1] - (400 - 64 - 16) / 64) < 0.3, String(above));
-  await press('v', 'Shift+3');
+  const { width, height } = await viewer.page.locator('#canvas').boundingBox();
+  await viewer.page.locator('#canvas').click({ position: { x: width / 2 + 30, y: height / 2 + 30 } });
+  await viewer.page.waitForFunction(() => document.getElementById('pick').textContent.includes('organ'));
+  await press('h');  // what is hidden is not in the cut: the body is around it
+  const [whole] = await areas(colours.slice(0, 1));
+  assert.equal(area(await viewer.picture(), colours[1]), 0);
+  assert.ok(Math.abs(whole / above[0] - (400 - 16) / (400 - 64 - 16)) < 0.05, `${whole} ${above}`);
+  await press('h', 'v', 'Shift+3');
   const below = await areas(colours);
   assert.ok(Math.abs(below[0] / below[1] - (400 - 64 - 16) / 64) < 0.3, String(below));
   await press('v');  // what is kept is on this side now, and is closed
