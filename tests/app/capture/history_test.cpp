@@ -50,14 +50,14 @@ class RandomWay {
       : random_(seed), client_(client), expected_(expected) {}
 
   void step() {
-    const unsigned choice = random_() % 10;
+    const auto choice = random_() % 10;
     if (choice < 3) return go(false);
     if (choice < 5) return go(true);
     Expected::State state = expected_.state();
     const int z = static_cast<int>(random_() % 7);
     const bool is_there = state.contains(z);
     const std::string contours =
-        ring(3 + random_() % 100 / 50.0, 7 + static_cast<int>(random_() % 5));
+        ring(3 + static_cast<double>(random_() % 100) / 50, 7 + static_cast<int>(random_() % 5));
     if (is_there && choice == 5) {
       state.erase(z);
       post(R"({"op":"remove","z":)" + std::to_string(z) + "}");
