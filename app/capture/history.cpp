@@ -12,13 +12,6 @@ constexpr std::size_t most_remembered = 1000;
 constexpr std::size_t most_points_remembered = 4'000'000;
 constexpr std::size_t most_told = 1000;
 
-/// Moves a number from one pile to the other.
-void move_number(std::vector<std::uint64_t>& from, std::vector<std::uint64_t>& to,
-                 std::uint64_t number) {
-  std::erase(from, number);
-  to.push_back(number);
-}
-
 /// The edit that puts a slice to a height, whatever is there; null: that takes it away.
 io::Edit edit_to(double z, const History::SharedSlice& wanted, const io::StackState& stack) {
   using Kind = io::Edit::Kind;
@@ -41,14 +34,12 @@ void History::add(const io::Edit& edit, const std::optional<io::Undo>& undo) {
   const std::uint64_t number = entries_.size();
   entries_.push_back({edit.slice.z, edit.kind, undo});
   // A journal may say anything.
-  const bool is_right = undo && undo->of < number && !entries_[undo->of].undo &&
-                        entries_[undo->of].is_undone == undo->is_redo;
-  if (is_right) {
-    entries_[undo->of].is_undone = !undo->is_redo;
-    if (undo->is_redo)
-      move_number(undone_, done_, undo->of);
-    else
-      move_number(done_, undone_, undo->of);
+  const bool is_redo = undo && undo->is_redo;
+  auto& from = is_redo ? undone_ : done_;
+  if (undo && !from.empty() && from.back() == undo->of) {
+    entries_[undo->of].is_undone = !is_redo;
+    (is_redo ? done_ : undone_).push_back(undo->of);
+    from.pop_back();
     return;
   }
   entries_.back().undo.reset();

@@ -9,11 +9,12 @@
 #include <vector>
 
 #include "io/bytes/atomic_file.h"
-#include "io/meshes/ply_records.h"
 #include "reconstruct/sew/surface_sink.h"
 #include "reconstruct/stack.h"
 
 namespace loft::io {
+
+struct PlyLabel;  // io/meshes/ply_records.h
 
 /// Writes a PLY file from surfaces that come piece by piece: the bytes of write_ply().
 ///

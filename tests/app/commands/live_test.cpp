@@ -83,7 +83,7 @@ TEST_F(Live, SaysWhatIsWrong) {
   EXPECT_EQ(status("shapes", R"({"do": "remove", "id": 4000000000})"), 422);
   EXPECT_EQ(status("weather", R"({"do": "remove", "id": 1})"), 404);
   EXPECT_EQ(status("shapes", std::string(2 << 20, ' ')), 413);
-  EXPECT_EQ(client_->Get("/tabs/shapes")->status, 404);
+  EXPECT_EQ(client_->Get("/tabs/shapes")->status, 405);
   EXPECT_EQ(client_->Get("/tabs/shapes/weather")->status, 404);
   EXPECT_EQ(client_->Get("/tabs/map/owners?at=x")->status, 400);
   EXPECT_EQ(client_->Get("/events?tab=weather")->status, 404);
