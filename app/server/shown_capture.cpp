@@ -99,7 +99,7 @@ ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
     about.faces += slab.faces;
     now.emplace(key, slab);
   }
-  const auto has_label = [&](const Contour& contour) { return contour.label == label; };
+  const auto has_label = [&](const Contour& contour) { return contour.label == about.label; };
   for (std::size_t i = 0; i < snapshot.slice_count(); ++i)
     if (std::ranges::any_of(snapshot.slice(i).contours, has_label)) ++about.slices;
   return about;

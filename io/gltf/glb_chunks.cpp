@@ -13,6 +13,13 @@ namespace {
 constexpr std::size_t glb_header = 12;
 constexpr std::size_t chunk_header = 8;
 
+/// Whether there is nothing, or a chunk and all of it.
+bool begins_with_whole_chunk(std::string_view rest) {
+  if (rest.empty()) return true;
+  return rest.size() >= chunk_header &&
+         get<std::uint32_t>(rest.data()) <= rest.size() - chunk_header;
+}
+
 }  // namespace
 
 std::optional<std::string_view> json_chunk(std::string_view glb) {
@@ -21,6 +28,8 @@ std::optional<std::string_view> json_chunk(std::string_view glb) {
   const std::size_t size = get<std::uint32_t>(glb.data() + glb_header);
   const bool is_json = get<std::uint32_t>(glb.data() + glb_header + 4) == json_type;
   if (!is_json || size > glb.size() - glb_header - chunk_header) return {};
+  // tinygltf 2.7 forgets the head of the chunk of bytes, and would read beyond the end.
+  if (!begins_with_whole_chunk(glb.substr(glb_header + chunk_header + size))) return {};
   return glb.substr(glb_header + chunk_header, size);
 }
 

@@ -8,7 +8,7 @@
 
 namespace loft::io {
 
-/// The JSON of a GLB; none where it is cut off.
+/// The JSON of a GLB; none where it, or the chunk behind it, is cut off.
 [[nodiscard]] std::optional<std::string_view> json_chunk(std::string_view glb);
 
 /// The same file with other JSON. Precondition: json_chunk() finds the old one.

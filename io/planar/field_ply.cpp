@@ -53,8 +53,7 @@ void write_field_ply(std::ostream& out, const fields::Field& field) {
     vertices.insert(vertices.end(), corners.begin(), corners.end());
   const auto is_less = [](const SurfaceVertex& a, const SurfaceVertex& b) { return a < b; };
   std::ranges::sort(vertices, is_less);
-  const auto rest = std::ranges::unique(vertices);
-  vertices.erase(rest.begin(), rest.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
 
   out << "ply\nformat binary_little_endian 1.0\nelement vertex " << vertices.size()
       << "\nproperty double x\nproperty double y\nproperty double z\nproperty double "

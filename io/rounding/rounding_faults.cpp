@@ -96,8 +96,8 @@ RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact, const PlaceCo
   find_meeting_faces(rounded, find_flat_faces(rounded, faults), faults);
   find_turned_components(rounded, exact, faults);
   std::ranges::sort(faults.vertices);
-  const auto rest = std::ranges::unique(faults.vertices);
-  faults.vertices.erase(rest.begin(), rest.end());
+  faults.vertices.erase(std::unique(faults.vertices.begin(), faults.vertices.end()),
+                        faults.vertices.end());
   return faults;
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Smaller numbers, written and read.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -11,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "io/bytes/little_endian.h"
 #include "io/gltf/gltf.h"
 #include "io/gltf/meshopt.h"
 #include "io/meshes/grid.h"
@@ -216,6 +218,20 @@ TEST(Compressed, BrokenFilesAreRefusedNotTrusted) {
         damaged[random() % damaged.size()] = static_cast<char>(random() & 0xffU);
       try_to_read(damaged);
     }
+  }
+}
+
+// tinygltf 2.7 let a chunk of bytes be 8 bytes longer than the file, and read these.
+TEST(Gltf, AChunkOfBytesBeyondTheEndIsRefused) {
+  const Surface surface = prism(5);
+  const std::string whole = glb_of({{"x", &surface}}, Compression::none);
+  const std::size_t json_size = get<std::uint32_t>(whole.data() + 12);
+  const std::size_t bytes_size = get<std::uint32_t>(whole.data() + 20 + json_size);
+  for (const std::uint32_t more : {4U, 8U, 12U}) {
+    std::string damaged = whole;
+    put(damaged.data() + 20 + json_size, static_cast<std::uint32_t>(bytes_size + more));
+    const auto read = [&] { static_cast<void>(meshes_in(damaged)); };
+    EXPECT_THAT(message_of<InputError>(read), ::testing::HasSubstr("cut off"));
   }
 }
 
