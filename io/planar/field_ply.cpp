@@ -37,7 +37,8 @@ std::vector<std::array<SurfaceVertex, 3>> surface_of(const fields::Field& field)
     for (unsigned k = 0; k < 3; ++k) corners[k] = vertex_at(field, Triangulation::edge(t, k));
     if (std::ranges::any_of(corners, [](const SurfaceVertex& v) { return v.value != v.value; }))
       continue;
-    std::ranges::rotate(corners, std::ranges::min_element(corners, {}, &SurfaceVertex::place));
+    std::rotate(corners.begin(), std::ranges::min_element(corners, {}, &SurfaceVertex::place),
+                corners.end());
     triangles.push_back(corners);
   }
   std::ranges::sort(triangles, [](const auto& a, const auto& b) { return a < b; });
