@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "app/server/shown_label.h"
 
+#include "io/bytes/hexadecimal.h"
 #include "io/meshes/label_colour.h"
 #include "mesh/vec3.h"
 

@@ -16,6 +16,7 @@
 #include "io/gltf/shading.h"
 #include "io/meshes/extent.h"
 #include "io/meshes/grid.h"
+#include "io/meshes/rim.h"
 #include "io/meshes/skin.h"
 #include "mesh/vec3.h"
 #include "reconstruct/defect.h"
@@ -59,11 +60,6 @@ Grid grid_of(std::span<const Part> parts, const Frame& frame) {
   Grid grid({a[0], a[1], b[2]}, {b[0], b[1], a[2]});
   grid.fit(levels_of(parts, frame), b[1]);
   return grid;
-}
-
-bool is_open(const Surface& surface) {
-  return std::ranges::any_of(surface.halfedges(),
-                             [&](const auto halfedge) { return surface.is_boundary(halfedge); });
 }
 
 std::string name_of(const Part& part) {
@@ -133,14 +129,14 @@ class Composer {
   static bool has_faces(const Part& part) { return part.surface->n_faces() > 0; }
 
   void add_surface(const Part& part) {
-    const bool has_rim = is_open(*part.surface);
-    tinygltf::Material look = material(name_of(part), has_rim, part.colour);
+    const bool is_open = has_rim(*part.surface);
+    tinygltf::Material look = material(name_of(part), is_open, part.colour);
     if (is_see_through(part, parts_)) {
       look.alphaMode = "BLEND";
       look.pbrMetallicRoughness.baseColorFactor[3] = skin_opacity;
     }
     tinygltf::Node& node = add_node(name_of(part), triangles(*part.surface), std::move(look), part);
-    node.extras = part_extras(part, has_rim, options_.metres_per_unit);
+    node.extras = part_extras(part, is_open, options_.metres_per_unit);
   }
 
   /// In a darker colour, to be seen on the surface.

@@ -63,14 +63,4 @@ Colour colour_of(const Part& part) {
   return part.colour ? *part.colour : srgb(label_colour(part.label));
 }
 
-std::string hexadecimal(Colour colour) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string text = "#";
-  for (const unsigned share : {colour.red, colour.green, colour.blue}) {
-    text += digits[share / 16];
-    text += digits[share % 16];
-  }
-  return text;
-}
-
 }  // namespace loft::io

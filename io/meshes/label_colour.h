@@ -22,7 +22,4 @@ namespace loft::io {
 /// As files have it: that of its source, else label_colour().
 [[nodiscard]] Colour colour_of(const Part& part);
 
-/// `#d02030`
-[[nodiscard]] std::string hexadecimal(Colour colour);
-
 }  // namespace loft::io

@@ -8,10 +8,12 @@
 #include <string>
 #include <string_view>
 
+#include "io/bytes/hexadecimal.h"
 #include "io/bytes/text.h"
 #include "io/bytes/utf8.h"
 #include "io/bytes/zip.h"
 #include "io/meshes/label_colour.h"
+#include "io/meshes/rim.h"
 #include "io/version.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/number_text.h"
@@ -77,11 +79,6 @@ std::string object_name(const Part& part) {
   return part.label.empty() ? "surface" : xml_text(part.label);
 }
 
-bool is_closed(const Surface& surface) {
-  return std::ranges::none_of(surface.halfedges(),
-                              [&](const auto side) { return surface.is_boundary(side); });
-}
-
 void append_xml_vertices(std::string& xml, const Mesh& mesh, double factor) {
   constexpr std::array<std::string_view, 3> axes{"<vertex x=\"", "\" y=\"", "\" z=\""};
   xml += "<vertices>\n";
@@ -123,7 +120,7 @@ std::string model_xml(std::span<const Part> parts, const WriteOptions& options) 
     colours +=
         "<base name=\"" + name + "\" displaycolor=\"" + hexadecimal(colour_of(part)) + "\"/>\n";
     objects += "<object id=\"" + id + "\" name=\"" + name + "\" type=\"" +
-               (is_closed(*part.surface) ? "model" : "surface") + "\" pid=\"1\" pindex=\"" +
+               (has_rim(*part.surface) ? "surface" : "model") + "\" pid=\"1\" pindex=\"" +
                std::to_string(count) + "\"><mesh>\n";
     append_xml_vertices(objects, mesh, unit.factor);
     append_xml_triangles(objects, mesh);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "io/bytes/hexadecimal.h"
 #include "io/bytes/json_reader.h"
 #include "io/bytes/near_word.h"
 #include "io/bytes/text.h"
@@ -274,15 +275,7 @@ bool append_stack_line(std::string& line, const Stack& stack) {
   return true;
 }
 
-std::string to_text(Colour colour) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  std::string text = "#";
-  for (const unsigned part : {colour.red, colour.green, colour.blue}) {
-    text += digits[part / 16];
-    text += digits[part % 16];
-  }
-  return text;
-}
+std::string to_text(Colour colour) { return hexadecimal(colour); }
 
 std::optional<Colour> to_colour(std::string_view text) {
   if (text.size() != 7 || text[0] != '#') return {};

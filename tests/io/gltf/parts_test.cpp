@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "io/bytes/hexadecimal.h"
 #include "io/gltf/gltf.h"
 #include "io/meshes/label_colour.h"
 #include "io/meshes/skin.h"
