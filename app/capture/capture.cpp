@@ -63,14 +63,13 @@ Capture::Capture(Setup setup, std::optional<io::Session> session, Feed& feed)
 
 /// What the session has, as far as it is wanted.
 void Capture::each_edit(const io::Session::Take& take) {
-  const auto undos = session_->undos();
   const std::uint64_t end = setup_.most_edits.value_or(session_->edit_count());
-  session_->for_each([&](std::uint64_t number, Edit&& edit) {
-    if (number >= end) return;
-    const auto undo = undos.find(number);
-    told_.history.add(edit, undo == undos.end() ? std::nullopt : std::optional(undo->second));
-    take(number, std::move(edit));
-  });
+  for_each_with_undo(*session_,
+                     [&](std::uint64_t number, Edit&& edit, const std::optional<io::Undo>& undo) {
+                       if (number >= end) return;
+                       told_.history.add(edit, undo);
+                       take(number, std::move(edit));
+                     });
 }
 
 /// Edit by edit, for who wants to see each.

@@ -110,13 +110,20 @@ Json History::to_json() const {
           {"can_redo", next(Way::redo).has_value()}};
 }
 
-History history_of(const io::Session& session) {
-  History history;
+void for_each_with_undo(const io::Session& session, const TakeUndo& take) {
   const auto undos = session.undos();
   session.for_each([&](std::uint64_t number, io::Edit&& edit) {
     const auto undo = undos.find(number);
-    history.add(edit, undo == undos.end() ? std::nullopt : std::optional(undo->second));
+    take(number, std::move(edit), undo == undos.end() ? std::nullopt : std::optional(undo->second));
   });
+}
+
+History history_of(const io::Session& session) {
+  History history;
+  for_each_with_undo(session,
+                     [&](std::uint64_t, io::Edit&& edit, const std::optional<io::Undo>& undo) {
+                       history.add(edit, undo);
+                     });
   return history;
 }
 

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -69,6 +70,12 @@ class History {
   std::deque<Exchange> exchanges_;  // of the last entries
   std::size_t points_ = 0;          // in them
 };
+
+/// The next edit of a session, and, where it is one, which edit it undid or did again.
+using TakeUndo =
+    std::function<void(std::uint64_t number, io::Edit&& edit, const std::optional<io::Undo>& undo)>;
+/// Calls take() for each edit, in order. Throws as Session::for_each().
+void for_each_with_undo(const io::Session& session, const TakeUndo& take);
 
 /// The history of a session. Throws as Session::for_each().
 [[nodiscard]] History history_of(const io::Session& session);

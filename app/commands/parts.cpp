@@ -2,7 +2,7 @@
 #include "app/commands/parts.h"
 
 #include <algorithm>
-#include <numeric>
+#include <cstdint>
 #include <utility>
 
 #include "app/commands/label_choice.h"
@@ -10,6 +10,7 @@
 #include "io/bytes/file.h"
 #include "io/gltf/meshopt.h"
 #include "io/stack.h"
+#include "reconstruct/world.h"
 
 namespace loft::app {
 
@@ -24,26 +25,25 @@ std::string source_of(const ReconstructCommand& command, const std::string& labe
   return command.inputs[static_cast<std::size_t>(found - names.begin())].filename().string();
 }
 
-std::vector<Vec3> places_of(const Stack& stack, double z, const Contour& contour) {
-  if (!contour.places.empty()) return {contour.places.begin(), contour.places.end()};
-  std::vector<Vec3> places;
-  places.reserve(contour.points.size());
-  for (const cdt::Point& point : contour.points) {
-    const Vec3 place{point.x, point.y, z};
-    places.push_back(stack.frame ? stack.frame->at(place) : place);
-  }
-  return places;
+io::ContourLine line_of(const Stack& stack, std::uint32_t slice, std::uint32_t contour) {
+  const double z = stack.slices[slice].z;
+  io::ContourLine line{z, {}};
+  const std::vector<cdt::Point>& points = stack.slices[slice].contours[contour].points;
+  for (std::uint32_t i = 0; i < points.size(); ++i)
+    line.points.push_back(world_place(stack, {points[i].x, points[i].y, z},
+                                      {VertexKind::contour, slice, contour, i}));
+  return line;
 }
 
 std::vector<io::ContourLine> contours_of(const Stack& stack, const std::string& label) {
-  std::vector<const Slice*> slices;
-  for (const Slice& slice : stack.slices) slices.push_back(&slice);
-  std::ranges::stable_sort(slices, {}, &Slice::z);
   std::vector<io::ContourLine> lines;
-  for (const Slice* const slice : slices)
-    for (const Contour& contour : slice->contours)
-      if (contour.label == label && contour.points.size() > 1)
-        lines.push_back({slice->z, places_of(stack, slice->z, contour)});
+  for (std::uint32_t slice = 0; slice < stack.slices.size(); ++slice) {
+    const std::vector<Contour>& contours = stack.slices[slice].contours;
+    for (std::uint32_t contour = 0; contour < contours.size(); ++contour)
+      if (contours[contour].label == label && contours[contour].points.size() > 1)
+        lines.push_back(line_of(stack, slice, contour));
+  }
+  std::ranges::stable_sort(lines, {}, &io::ContourLine::height);
   return lines;
 }
 

@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <iterator>
-#include <numeric>
 #include <span>
 #include <tuple>
 #include <unordered_map>
@@ -13,31 +12,13 @@
 #include <vector>
 
 #include "io/meshes/place_hash.h"
+#include "mesh/adjacency.h"
 
 namespace loft::io {
 
 namespace {
 
 using Index = std::uint32_t;
-
-/// Sets of vertices that grow together; the smallest vertex stands for its set.
-class Sets {
- public:
-  explicit Sets(std::size_t size) : parent_(size) { std::iota(parent_.begin(), parent_.end(), 0U); }
-
-  Index find(Index vertex) {
-    while (parent_[vertex] != vertex) vertex = parent_[vertex] = parent_[parent_[vertex]];
-    return vertex;
-  }
-  void join(Index a, Index b) {
-    const Index root_a = find(a);
-    const Index root_b = find(b);
-    parent_[std::max(root_a, root_b)] = std::min(root_a, root_b);
-  }
-
- private:
-  std::vector<Index> parent_;
-};
 
 /// For each vertex, the first one at the same place.
 std::vector<Index> first_at_place(std::span<const Vec3> points) {
@@ -88,18 +69,18 @@ std::vector<Side> borders(std::span<const Side> run) {
 }
 
 /// Joins the ends that lie at the same place, of sides that all lie on one line.
-void join_ends(std::span<const Side> sides, std::span<const Index> place, Sets& sets) {
+void join_ends(std::span<const Side> sides, std::span<const Index> place, DisjointSets& sets) {
   if (sides.size() < 2) return;
   const Side& first = sides.front();
   if (sides.size() == 2 && place[first.from] == place[sides[1].from]) return;  // side by side
   for (const Side& side : sides.subspan(1)) {
     const bool same_way = place[side.from] == place[first.from];
-    sets.join(first.from, same_way ? side.from : side.to);
-    sets.join(first.to, same_way ? side.to : side.from);
+    sets.unite(first.from, same_way ? side.from : side.to);
+    sets.unite(first.to, same_way ? side.to : side.from);
   }
 }
 
-Mesh renumbered(const Mesh& mesh, Sets& sets) {
+Mesh renumbered(const Mesh& mesh, DisjointSets& sets) {
   std::vector<bool> used(mesh.points.size());
   for (const auto& face : mesh.faces) {
     for (const Index corner : face) used[sets.find(corner)] = true;
@@ -123,7 +104,7 @@ Mesh renumbered(const Mesh& mesh, Sets& sets) {
 Mesh sew_seams(const Mesh& mesh) {
   const std::vector<Index> place = first_at_place(mesh.points);
   const std::vector<Side> sides = sides_by(mesh, place);
-  Sets sets(mesh.points.size());
+  DisjointSets sets(mesh.points.size());
   for (auto begin = sides.begin(); begin != sides.end();) {
     const auto end = std::find_if(begin, sides.end(),
                                   [&](const Side& side) { return side.line != begin->line; });

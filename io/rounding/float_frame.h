@@ -46,17 +46,22 @@ struct FloatFrame {
   }
 };
 
+/// 0 for a box around nothing.
+[[nodiscard]] inline double longest_side(const Box3& box) {
+  double longest = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    longest = std::max(longest, box.high[axis] - box.low[axis]);
+  return longest;
+}
+
 /// Whether the last place of the largest coordinates in a box, as `float`, is more than a share of
 /// the box's longest side: then shapes are not kept.
 [[nodiscard]] inline bool is_coarse(const Box3& box, double share) {
   constexpr double last_place = 0x1p-23;
-  double size = 0;
   double distance = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    size = std::max(size, box.high[axis] - box.low[axis]);
+  for (std::size_t axis = 0; axis < 3; ++axis)
     distance = std::max({distance, std::abs(box.low[axis]), std::abs(box.high[axis])});
-  }
-  return distance * last_place > size * share;
+  return distance * last_place > longest_side(box) * share;
 }
 
 }  // namespace loft::io

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "io/rounding/near_origin.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "io/meshes/extent.h"
@@ -13,9 +12,7 @@ namespace {
 /// Near the middle of a box, in round numbers: multiples of a power of ten that is no larger than
 /// the box.
 Vec3 round_place_near(const Box3& box) {
-  double size = 0;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    size = std::max(size, box.high[axis] - box.low[axis]);
+  const double size = longest_side(box);
   if (!(size > 0)) return centre_of(box);
   const double step = std::pow(10, std::floor(std::log10(size)));
   Vec3 place = centre_of(box);
