@@ -1,0 +1,2 @@
+# SPDX-License-Identifier: MIT
+"""Closed surfaces from stacks of planar contours, exact and valid."""
