@@ -330,9 +330,9 @@ ExitCode run(const ReconstructCommand& given) {
   Report report;
   Stopwatch total;
   const PeakMemory memory;
+  catch_interrupts();
   check_outputs(command);
   report.is_out_of_core = is_out_of_core(command);
-  catch_interrupts();
   work(command, terminal, report);
   report.peak_memory = std::max(report.peak_memory, memory.in_all());
   report.seconds["total"] = total.lap();
