@@ -2,15 +2,16 @@
 #include "io/precomputed.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string_view>
 #include <system_error>
 #include <utility>
 
 #include "io/bytes/atomic_file.h"
 #include "io/bytes/file.h"
+#include "io/bytes/json_reader.h"
 #include "io/rounding/rounded_parts.h"
 
 namespace loft::io {
@@ -39,22 +40,54 @@ void ensure_text(const path& file, const std::string& text) {
   write_text(file, text);
 }
 
-nlohmann::json read_json(const path& file) {
-  nlohmann::json json = nlohmann::json::parse(read_file(file), nullptr, false);
-  if (!json.is_object()) throw InputError(file.string() + ": not a JSON object");
-  return json;
-}
+/// A JSON file that is looked into.
+class JsonFile {
+ public:
+  explicit JsonFile(path file) : file_(std::move(file)), text_(read_file(file_)) {}
 
-/// Of the strings in a list; others are refused.
-std::vector<std::string> strings(const nlohmann::json& list, const path& file) {
-  std::vector<std::string> result;
-  if (!list.is_array()) throw InputError(file.string() + ": no list of names where one should be");
-  for (const auto& item : list) {
-    if (!item.is_string()) throw InputError(file.string() + ": a name that is no string");
-    result.push_back(item.get<std::string>());
+  /// The strings of the list that members lead to, one inside the other; `0` is the first of a
+  /// list. None where there is no such list. Throws InputError.
+  [[nodiscard]] std::vector<std::string> strings(std::span<const std::string_view> members) const {
+    try {
+      JsonReader json(text_, "file");
+      for (const std::string_view member : members)
+        if (!(member == "0" ? enter_first(json) : enter(json, member))) return {};
+      return strings(json);
+    } catch (const JsonError& error) {
+      throw InputError(file_.string() + ": " + error.what());
+    }
   }
-  return result;
-}
+
+ private:
+  static bool enter(JsonReader& json, std::string_view member) {
+    if (json.peek() != JsonKind::object) return false;
+    json.begin_object();
+    while (const auto key = json.next_key()) {
+      if (*key == member) return true;
+      json.skip();
+    }
+    return false;
+  }
+  static bool enter_first(JsonReader& json) {
+    if (json.peek() != JsonKind::list) return false;
+    json.begin_list();
+    return json.next_item();
+  }
+  [[nodiscard]] std::vector<std::string> strings(JsonReader& json) const {
+    std::vector<std::string> result;
+    if (json.peek() != JsonKind::list) return result;
+    json.begin_list();
+    while (json.next_item()) {
+      if (json.peek() != JsonKind::string)
+        throw InputError(file_.string() + ": a name that is no string");
+      result.push_back(json.string());
+    }
+    return result;
+  }
+
+  path file_;
+  std::string text_;
+};
 
 /// The names of segments, by their numbers as text; none where there is no such file.
 std::map<std::string, std::string> segment_names(const path& folder) {
@@ -62,12 +95,10 @@ std::map<std::string, std::string> segment_names(const path& folder) {
   std::error_code ignored;
   std::map<std::string, std::string> names;
   if (!std::filesystem::is_regular_file(file, ignored)) return names;
-  const nlohmann::json json = read_json(file);
-  const nlohmann::json::json_pointer list("/inline/ids");
-  const nlohmann::json::json_pointer values("/inline/properties/0/values");
-  if (!json.contains(list) || !json.contains(values)) return names;
-  const std::vector<std::string> ids = strings(json[list], file);
-  const std::vector<std::string> labels = strings(json[values], file);
+  const JsonFile json(file);
+  const auto ids = json.strings(std::array<std::string_view, 2>{"inline", "ids"});
+  const auto labels =
+      json.strings(std::array<std::string_view, 4>{"inline", "properties", "0", "values"});
   for (std::size_t i = 0; i < std::min(ids.size(), labels.size()); ++i) names[ids[i]] = labels[i];
   return names;
 }
@@ -98,11 +129,12 @@ Mesh read_segment(const path& folder, std::uint64_t id) {
   const path file = folder / neuroglancer::manifest_name(id);
   Mesh mesh;
   for (const std::string& name :
-       strings(read_json(file).value("fragments", nlohmann::json()), file)) {
+       JsonFile(file).strings(std::array<std::string_view, 1>{"fragments"})) {
     if (path(name).filename() != name)
       throw InputError(file.string() + ": a fragment outside of its folder");
     append(mesh, read_fragment(read_file(folder / name), (folder / name).string()));
   }
+  if (mesh.faces.empty()) throw InputError(file.string() + ": it names no fragments");
   return mesh;
 }
 

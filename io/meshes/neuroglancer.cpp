@@ -5,20 +5,19 @@
 #include <charconv>
 #include <cmath>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "io/bytes/json_reader.h"
 #include "io/bytes/little_endian.h"
 #include "io/bytes/text.h"
+#include "io/bytes/utf8.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 /// None where the digits are no number that a segment can have.
 std::optional<std::uint64_t> segment_number(std::string_view digits) {
@@ -55,8 +54,15 @@ class Numbers {
   std::uint64_t next_ = 1;
 };
 
-std::string neuroglancer_text(const Json& json) {
-  return json.dump(-1, ' ', false, Json::error_handler_t::replace) + '\n';
+/// A list of strings.
+template <class Text>
+std::string string_list(std::span<const Segment> segments, const Text& text) {
+  std::string list = "[";
+  for (const Segment& segment : segments) {
+    if (list.size() > 1) list += ',';
+    append_json_string(list, json_text(text(segment)));
+  }
+  return list + ']';
 }
 
 /// Writes numbers of 4 bytes in blocks.
@@ -157,25 +163,20 @@ std::string manifest_name(std::uint64_t segment) { return std::to_string(segment
 std::string fragment_name(std::uint64_t segment) { return std::to_string(segment) + ":0:0"; }
 
 std::string info() {
-  return neuroglancer_text(
-      {{"@type", "neuroglancer_legacy_mesh"}, {"segment_properties", properties_folder}});
+  return R"({"@type":"neuroglancer_legacy_mesh","segment_properties":")" +
+         std::string(properties_folder) + "\"}\n";
 }
 
 std::string manifest(std::uint64_t segment) {
-  return neuroglancer_text({{"fragments", Json::array({fragment_name(segment)})}});
+  return R"({"fragments":[")" + fragment_name(segment) + "\"]}\n";
 }
 
 std::string properties(std::span<const Segment> segments) {
-  Json ids = Json::array();
-  Json names = Json::array();
-  for (const Segment& segment : segments) {
-    ids.push_back(std::to_string(segment.id));
-    names.push_back(segment.label);
-  }
-  Json label = {{"id", "label"}, {"type", "label"}, {"values", std::move(names)}};
-  return neuroglancer_text(
-      {{"@type", "neuroglancer_segment_properties"},
-       {"inline", {{"ids", std::move(ids)}, {"properties", Json::array({std::move(label)})}}}});
+  const auto id = [](const Segment& segment) { return std::to_string(segment.id); };
+  const auto label = [](const Segment& segment) { return segment.label; };
+  return R"({"@type":"neuroglancer_segment_properties","inline":{"ids":)" +
+         string_list(segments, id) + R"(,"properties":[{"id":"label","type":"label","values":)" +
+         string_list(segments, label) + "}]}}\n";
 }
 
 }  // namespace neuroglancer

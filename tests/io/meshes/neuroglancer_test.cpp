@@ -153,6 +153,17 @@ TEST(Precomputed, FolderComesBackWithItsNames) {
             nlohmann::json::array({"a", "b 9", "none"}));
 }
 
+TEST(Precomputed, WhatIsNoFolderOfMeshesIsRefusedByName) {
+  const Folder folder;
+  EXPECT_THROW(static_cast<void>(read_precomputed(folder / "none")), Error);
+  EXPECT_THROW(static_cast<void>(read_precomputed(folder / "")), InputError);
+  for (const char* manifest : {"", "{", "[]", R"({"fragments":[1]})", R"({"fragments":["../x"]})",
+                               R"({"fragments":["x"]})", R"({"fragments":"x"})"}) {
+    static_cast<void>(folder.write("5:0", manifest));
+    EXPECT_THROW(static_cast<void>(read_precomputed(folder / "")), Error) << manifest;
+  }
+}
+
 /// Many thin walls far from 0, where neighbouring floats are far apart.
 TEST(Precomputed, MeshesAreSolidsStillWhenTheyAreRounded) {
   const Folder folder;
