@@ -21,7 +21,7 @@ namespace loft::io {
 
 /// A folder of meshes for Neuroglancer, in its legacy single-resolution format: `info`, the names
 /// of the segments in `segment_properties/info`, and for each segment a manifest `ID:0` and a
-/// fragment `ID:0:0` (meshes/neuroglancer.h).
+/// fragment `ID:0:1` (meshes/neuroglancer.h).
 ///
 /// Several processes may write in the same folder at the same time, each its own segments: every
 /// file appears whole or not at all, `info` and names are the same bytes whoever writes them, and a

@@ -160,7 +160,7 @@ namespace neuroglancer {
 
 std::string manifest_name(std::uint64_t segment) { return std::to_string(segment) + ":0"; }
 
-std::string fragment_name(std::uint64_t segment) { return std::to_string(segment) + ":0:0"; }
+std::string fragment_name(std::uint64_t segment) { return std::to_string(segment) + ":0:1"; }
 
 std::string info() {
   return R"({"@type":"neuroglancer_legacy_mesh","segment_properties":")" +

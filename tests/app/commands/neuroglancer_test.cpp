@@ -63,7 +63,7 @@ TEST(Neuroglancer, AStackWithoutLabelsHasOneMesh) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", barrel()));
   EXPECT_EQ(run(folder, "reconstruct in.ndjson -q -o precomputed://meshes").exit_code, 0);
-  EXPECT_TRUE(std::filesystem::exists(folder / "meshes/1:0:0"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "meshes/1:0:1"));
 }
 
 }  // namespace
