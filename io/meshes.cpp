@@ -14,6 +14,7 @@
 #include "io/meshes/off.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/stl.h"
+#include "io/precomputed.h"
 
 namespace loft::io {
 
@@ -47,7 +48,7 @@ constexpr std::array mesh_readers{
 std::string mesh_extensions() { return extensions_of(mesh_readers); }
 
 bool is_mesh_file(const std::filesystem::path& path) {
-  return find_format(mesh_readers, path) != nullptr;
+  return precomputed_folder(path) || find_format(mesh_readers, path) != nullptr;
 }
 
 bool keeps_coordinates(const std::filesystem::path& path) {
@@ -56,6 +57,7 @@ bool keeps_coordinates(const std::filesystem::path& path) {
 }
 
 std::vector<LabelledMesh> read_meshes(const std::filesystem::path& path) {
+  if (const auto folder = precomputed_folder(path)) return read_precomputed(*folder);
   return format_of(mesh_readers, path).read(path);
 }
 

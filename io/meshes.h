@@ -10,7 +10,8 @@
 
 namespace loft::io {
 
-/// The meshes in a file; the extension chooses the reader. One mesh a label where loft wrote the
+/// The meshes in a file; the extension chooses the reader. `precomputed://FOLDER` is a folder of
+/// Neuroglancer's (precomputed.h), in nanometres. One mesh a label where loft wrote the
 /// file and the format keeps labels (PLY, OBJ, glTF), else one. Every mesh has faces, and their
 /// indices are valid; nothing else is promised. Files from STL and glTF have their seams closed.
 /// glTF comes back with z up, in the stack's unit where loft wrote it, in metres elsewhere.

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/shard.h"
 #include "app/exit_code.h"
 #include "cdt/point.h"
 #include "fields/field.h"
@@ -35,6 +36,9 @@ struct ReconstructCommand {
   io::ReadOptions read = {.unlabelled = io::Unlabelled::label_by_file};
   std::vector<std::string> only;  ///< labels, see LabelChoice
   std::vector<std::string> except;
+  Shard shard;                                          ///< of the labels that are left
+  bool skip_existing = false;                           ///< files that are there stay as they are
+  bool is_neuroglancer = false;                         ///< outputs are folders of meshes for it
   io::Compression compression = io::Compression::none;  ///< of glTF
   bool with_contours = false;                           ///< lines in glTF
   std::vector<std::string> hidden;                      ///< labels, see LabelChoice; in glTF
