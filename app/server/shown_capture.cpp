@@ -31,10 +31,12 @@ std::optional<std::string> ShownCapture::slab(std::size_t part, std::uint32_t id
 
 io::SlabView ShownCapture::view_of(const CaptureView& view, std::size_t part) const {
   const Capture::Setup& setup = capture_.setup();
+  const StackLabel* const said = find(setup.labels, view.parts[part].label);
   return {.label = view.parts[part].label,
           .is_double_sided = setup.options.cap == Cap::open,
           .origin = view.origin,
-          .metres_per_unit = setup.metres_per_unit};
+          .metres_per_unit = setup.metres_per_unit,
+          .colour = said == nullptr ? std::nullopt : said->colour};
 }
 
 std::string ShownCapture::slabs(std::span<const SlabRange> ranges, std::size_t most_bytes) {
@@ -77,6 +79,12 @@ std::vector<ShownLabel> ShownCapture::labels() {
   std::vector<ShownLabel> labels;
   for (std::size_t part = 0; part < view->parts.size(); ++part)
     labels.push_back(measure(*view, part, measured_, now));
+  for (ShownLabel& label : labels) {
+    const StackLabel* const said = loft::find(capture_.setup().labels, label.label);
+    if (said == nullptr) continue;
+    label.colour = said->colour;
+    label.is_skin = io::is_skin(label.label, said->kind);
+  }
   measured_ = std::move(now);
   return labels;
 }
@@ -85,6 +93,7 @@ ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
                                  const MeasuredSlabs& before, MeasuredSlabs& now) {
   const auto& [label, snapshot] = view.parts[part];
   ShownLabel about{.label = label, .is_skin = io::is_skin(label), .volume = snapshot.volume()};
+  double area_of_all = 0;
   for (std::size_t i = 0; i < snapshot.slab_count(); ++i) {
     const SlabKey key{part, snapshot.slab(i).id};
     const auto known = before.find(key);
@@ -95,10 +104,11 @@ ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
       const Mesh mesh = snapshot.patch(i, i + 1).mesh;
       slab = {area(mesh), mesh.faces.size()};
     }
-    about.area += slab.area;
+    area_of_all += slab.area;
     about.faces += slab.faces;
     now.emplace(key, slab);
   }
+  about.area = area_of_all;
   const auto has_label = [&](const Contour& contour) { return contour.label == about.label; };
   for (std::size_t i = 0; i < snapshot.slice_count(); ++i)
     if (std::ranges::any_of(snapshot.slice(i).contours, has_label)) ++about.slices;
@@ -107,7 +117,7 @@ ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
 
 std::optional<std::string> ShownCapture::surface(std::string_view extension) {
   const auto view = capture_.view();
-  const Surfaces surfaces(*view);
+  const Surfaces surfaces(*view, capture_.setup().labels);
   if (surfaces.parts().empty()) return {};
   std::ostringstream out;
   io::write(out, extension, surfaces.parts(),
