@@ -2,7 +2,9 @@
 #include "app/server/shown_capture.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "app/capture/surfaces.h"
@@ -12,6 +14,17 @@
 namespace loft::app {
 
 namespace {
+
+/// How many slices have contours of a label. Cost: that of all contours, once for all labels.
+std::map<std::string_view, std::size_t> count_slices(const Snapshot& snapshot) {
+  std::map<std::string_view, std::size_t> counts;
+  for (std::size_t i = 0; i < snapshot.slice_count(); ++i) {
+    std::set<std::string_view> labels;
+    for (const Contour& contour : snapshot.slice(i).contours) labels.insert(contour.label);
+    for (const std::string_view label : labels) ++counts[label];
+  }
+  return counts;
+}
 
 /// So many faces make a GLB, and what the last slab has beyond.
 constexpr std::size_t most_bundled_faces = 32'768;
@@ -79,7 +92,12 @@ std::vector<ShownLabel> ShownCapture::labels() {
   std::vector<ShownLabel> labels;
   for (std::size_t part = 0; part < view->parts.size(); ++part)
     labels.push_back(measure(*view, part, measured_, now));
+  // All parts go through the same slices.
+  const auto counts = view->parts.empty() ? std::map<std::string_view, std::size_t>()
+                                          : count_slices(view->parts.front().snapshot);
   for (ShownLabel& label : labels) {
+    if (const auto found = counts.find(label.label); found != counts.end())
+      label.slices = found->second;
     const StackLabel* const said = loft::find(capture_.setup().labels, label.label);
     if (said == nullptr) continue;
     label.colour = said->colour;
@@ -109,9 +127,6 @@ ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
     now.emplace(key, slab);
   }
   about.area = area_of_all;
-  const auto has_label = [&](const Contour& contour) { return contour.label == about.label; };
-  for (std::size_t i = 0; i < snapshot.slice_count(); ++i)
-    if (std::ranges::any_of(snapshot.slice(i).contours, has_label)) ++about.slices;
   return about;
 }
 
