@@ -62,7 +62,9 @@ std::vector<LabelledMesh> read_meshes(const std::filesystem::path& path) {
 }
 
 std::vector<Slice> read_contours(const std::filesystem::path& path) {
-  if (extension(path) != ".ply") return {};
+  const std::string format = extension(path);
+  if (format == ".glb" || format == ".gltf") return read_gltf_contours(path);
+  if (format != ".ply") return {};
   return read_ply_contours(read_file(path), path.string());
 }
 

@@ -205,9 +205,10 @@ struct StreamCommand {
   std::optional<std::filesystem::path> session;
   Options options;
   std::string unit = "mm";
-  std::set<std::string> given;    ///< settings (settings.h) that the command line names
-  bool takes_stack_line = false;  ///< settings come from the first line of the input, too
-  std::size_t every = 0;          ///< edits after which the outputs are written; 0: at the end only
+  std::vector<StackLabel> labels;  ///< what the first line of the input tells of them
+  std::set<std::string> given;     ///< settings (settings.h) that the command line names
+  bool takes_stack_line = false;   ///< settings come from the first line of the input, too
+  std::size_t every = 0;  ///< edits after which the outputs are written; 0: at the end only
   bool serves = false;
   std::string host = "127.0.0.1";
   int port = 8337;
