@@ -154,6 +154,16 @@ Measures sum(const std::vector<PartReport>& parts) {
   return total;
 }
 
+/// An open surface has no volume, and nobody knows its genus.
+void leave_out_of_range(Json& json) {
+  const auto leave_out = [](Json& of) { of["genus"] = of["volume"] = Json(); };
+  leave_out(json);
+  for (Json& part : json["parts"]) {
+    leave_out(part);
+    part["slab_volume"] = Json();
+  }
+}
+
 }  // namespace
 
 std::string to_json(const Report& report, const ReconstructCommand& command) {
@@ -172,6 +182,7 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"metres_per_unit", *io::metres_per_unit(command.unit)}};
   for (const auto& [setting, length] : lengths(command.options)) json["options"][setting] = length;
   json["out_of_core"] = report.is_out_of_core;
+  if (!report.range.empty()) json["slabs"] = report.range;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;
@@ -180,6 +191,7 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
     json["skipped"].push_back({{"label", label}, {"message", message}});
   json["parts"] = Json::array();
   for (const PartReport& part : report.parts) json["parts"].push_back(to_json(part, command.slabs));
+  if (!report.range.empty()) leave_out_of_range(json);
   return print(json);
 }
 
