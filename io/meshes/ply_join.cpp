@@ -288,9 +288,10 @@ class JoinedLabel {
     if (parts_.empty()) return;
     const PartSizes& lowest = parts_.front()->sizes(label_);
     const PartSizes& highest = parts_.back()->sizes(label_);
-    if (lowest.lower_doubled + lowest.lower_cuts + lowest.lower_seam != 0)
+    if (lowest.lower_doubled != 0 || lowest.lower_cuts != 0 || lowest.lower_seam != 0)
       problems.add(parts_.front()->name() + ": is sewn on something below that no part has");
-    if (highest.upper + highest.upper_midpoints + highest.upper_cuts + highest.upper_seam != 0)
+    if (highest.upper != 0 || highest.upper_midpoints != 0 || highest.upper_cuts != 0 ||
+        highest.upper_seam != 0)
       problems.add(parts_.back()->name() + ": is sewn on something above that no part has");
     for (std::size_t i = 0; i + 1 < parts_.size(); ++i)
       if (!do_fit(i))
