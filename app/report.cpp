@@ -38,62 +38,6 @@ StackSize size_of(const std::vector<Slice>& stack, std::span<const ContourId> co
   return size;
 }
 
-const char* name(Fill fill) {
-  switch (fill) {
-    case Fill::even_odd:
-      return "evenodd";
-    case Fill::nonzero:
-      return "nonzero";
-    case Fill::keyhole_aware:
-      break;
-  }
-  return "keyhole-aware";
-}
-
-const char* name(Cap cap) {
-  switch (cap) {
-    case Cap::flat:
-      return "flat";
-    case Cap::dome:
-      return "dome";
-    case Cap::extend:
-      return "extend";
-    case Cap::open:
-      break;
-  }
-  return "open";
-}
-
-const char* name(LinkRule rule) {
-  switch (rule) {
-    case LinkRule::automatic:
-      return "auto";
-    case LinkRule::overlap:
-      return "overlap";
-    case LinkRule::none:
-      break;
-  }
-  return "none";
-}
-
-const char* name(Stage stage) {
-  switch (stage) {
-    case Stage::clean:
-      return "clean";
-    case Stage::tile:
-      return "tile";
-    case Stage::smooth:
-      return "smooth";
-    case Stage::refine:
-      return "refine";
-    case Stage::sew:
-      return "sew";
-    case Stage::simplify:
-      break;
-  }
-  return "simplify";
-}
-
 std::string grouped(std::size_t number) {
   std::string digits = std::to_string(number);
   for (std::size_t place = digits.size(); place > 3; place -= 3) digits.insert(place - 3, 1, ',');
@@ -110,18 +54,6 @@ std::string rounded(double number) {
   text.precision(4);
   text << number;
   return text.str();
-}
-
-std::vector<std::pair<std::string, double>> lengths(const Options& options) {
-  std::vector<std::pair<std::string, double>> result;
-  const auto add = [&](const char* name, const std::optional<double>& length) {
-    if (length) result.emplace_back(name, *length);
-  };
-  add("fair", options.fair);
-  add("max_edge", options.max_edge);
-  add("target_edge", options.target_edge);
-  add("simplify", options.simplify);
-  return result;
 }
 
 std::string describe(const Angles& angles) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "mesh/measure.h"
+#include "reconstruct/option_names.h"
 #include "reconstruct/options.h"
 #include "reconstruct/progress.h"
 #include "reconstruct/slice.h"
@@ -55,13 +56,5 @@ inline constexpr const char* stairs_are_bent =
     "the contours are stairs, as outlines along pixels are, and --smooth bends every step; smooth "
     "them in their slices with --fair DISTANCE, half a pixel or a little more, or draw outlines of "
     "label volumes with --outline fair or iso";
-
-/// The options that are lengths, as far as set, by their names in files and reports.
-[[nodiscard]] std::vector<std::pair<std::string, double>> lengths(const Options& options);
-
-[[nodiscard]] const char* name(Fill fill);
-[[nodiscard]] const char* name(Cap cap);
-[[nodiscard]] const char* name(LinkRule rule);
-[[nodiscard]] const char* name(Stage stage);
 
 }  // namespace loft::app

@@ -14,4 +14,10 @@ enum class Stage { clean, tile, smooth, refine, sew, simplify };
 /// with fractions that never fall.
 using Progress = std::function<bool(Stage stage, double fraction)>;
 
+/// What reports call a stage: `clean`, `tile`, ...
+[[nodiscard]] const char* name(Stage stage);
+
+/// How much of all the work is done at that point: each stage counts for about what it takes.
+[[nodiscard]] double overall(Stage stage, double fraction);
+
 }  // namespace loft

@@ -18,7 +18,7 @@ paths         paths/*                        overlay
 fields        fields/*                       overlay
 mesh          mesh/*                         cdt
 
-values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,origin,parallel,progress,slice,stack,surface,usable}  mesh
+values        reconstruct/{contours_by_label,defect,nearest_height,number_text,options,option_names,origin,parallel,progress,slice,stack,surface,usable}  mesh
 moved         reconstruct/{check,measure,mesh}                                    values
 plane         reconstruct/plane/*            values
 fair          reconstruct/fair/*             plane

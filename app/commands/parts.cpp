@@ -2,15 +2,12 @@
 #include "app/commands/parts.h"
 
 #include <algorithm>
-#include <cstdint>
-#include <utility>
 
 #include "app/commands/label_choice.h"
 #include "app/exit_code.h"
 #include "io/bytes/file.h"
 #include "io/gltf/meshopt.h"
 #include "io/stack.h"
-#include "reconstruct/world.h"
 
 namespace loft::app {
 
@@ -25,28 +22,6 @@ std::string source_of(const ReconstructCommand& command, const std::string& labe
   return command.inputs[static_cast<std::size_t>(found - names.begin())].filename().string();
 }
 
-io::ContourLine line_of(const Stack& stack, std::uint32_t slice, std::uint32_t contour) {
-  const double z = stack.slices[slice].z;
-  io::ContourLine line{z, {}};
-  const std::vector<cdt::Point>& points = stack.slices[slice].contours[contour].points;
-  for (std::uint32_t i = 0; i < points.size(); ++i)
-    line.points.push_back(world_place(stack, {points[i].x, points[i].y, z},
-                                      {VertexKind::contour, slice, contour, i}));
-  return line;
-}
-
-std::vector<io::ContourLine> contours_of(const Stack& stack, const std::string& label) {
-  std::vector<io::ContourLine> lines;
-  for (std::uint32_t slice = 0; slice < stack.slices.size(); ++slice) {
-    const std::vector<Contour>& contours = stack.slices[slice].contours;
-    for (std::uint32_t contour = 0; contour < contours.size(); ++contour)
-      if (contours[contour].label == label && contours[contour].points.size() > 1)
-        lines.push_back(line_of(stack, slice, contour));
-  }
-  std::ranges::stable_sort(lines, {}, &io::ContourLine::height);
-  return lines;
-}
-
 }  // namespace
 
 std::set<std::string> hidden_labels(const ReconstructCommand& command,
@@ -57,15 +32,9 @@ std::set<std::string> hidden_labels(const ReconstructCommand& command,
 }
 
 io::Part part_of(const ReconstructCommand& command, const Stack& stack, const std::string& label) {
-  io::Part part;
-  part.label = label;
+  io::Part part = io::part_of(stack, label);
   part.source = source_of(command, label);
-  if (const StackLabel* const said = stack.find_label(label); said != nullptr) {
-    part.colour = said->colour;
-    part.id = said->id;
-    part.kind = said->kind;
-  }
-  if (command.with_contours) part.contours = contours_of(stack, label);
+  if (command.with_contours) part.contours = io::contour_lines(stack, label);
   return part;
 }
 

@@ -44,25 +44,6 @@ namespace {
 
 using std::filesystem::path;
 
-/// How much of the work is done: the stages' shares are about what they take.
-double overall(Stage stage, double fraction) {
-  switch (stage) {
-    case Stage::clean:
-      return 0.1 * fraction;
-    case Stage::tile:
-      return 0.1 + 0.3 * fraction;
-    case Stage::smooth:
-      return 0.4 + 0.2 * fraction;
-    case Stage::refine:
-      return 0.6 + 0.2 * fraction;
-    case Stage::sew:
-      return 0.8 + 0.1 * fraction;
-    case Stage::simplify:
-      break;
-  }
-  return 0.9 + 0.1 * fraction;
-}
-
 /// Follows a reconstruction: draws the bar, times the stages, stops it after an interrupt.
 class Follower {
  public:
@@ -189,12 +170,7 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   options.metres_per_unit = *io::metres_per_unit(command.unit);
   // File names only: the same stack gives the same bytes wherever it lies.
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
-  options.settings = {{"fill", name(command.options.fill)},
-                      {"cap", name(command.options.cap)},
-                      {"link", name(command.options.link)}};
-  if (command.options.smooth) options.settings["smooth"] = "true";
-  for (const auto& [setting, length] : lengths(command.options))
-    options.settings[setting] = exact(length);
+  options.settings = settings_of(command.options);
   options.compression = command.compression;
   return options;
 }

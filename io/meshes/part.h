@@ -36,6 +36,12 @@ struct Part {
   bool is_hidden = false;                  ///< until a viewer is told to show it
 };
 
+/// What a stack says of a label; the surface is still to be added.
+[[nodiscard]] Part part_of(const Stack& stack, const std::string& label);
+
+/// The contours of a label, where they are in the world, from low to high.
+[[nodiscard]] std::vector<ContourLine> contour_lines(const Stack& stack, const std::string& label);
+
 /// How glTF's numbers are made smaller. Not every program reads such files.
 enum class Compression {
   none,
