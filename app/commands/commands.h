@@ -25,6 +25,12 @@ namespace loft::app {
 /// Whether a stack is read as a whole.
 enum class Memory { by_size, in_memory, out_of_core };
 
+/// Slabs as they are asked for: `A..B`, `A..`, `..B`.
+struct SlabChoice {
+  std::size_t first = 0;
+  std::optional<std::size_t> bound;  ///< not given: all up to the top
+};
+
 /// `loft reconstruct IN... -o OUT ...`
 struct ReconstructCommand {
   std::vector<std::filesystem::path> inputs;
@@ -45,7 +51,8 @@ struct ReconstructCommand {
   std::optional<std::filesystem::path> volumes;         ///< file for the table of volumes
   bool strict = false;  ///< a label that cannot be made is a failure
   bool json = false;
-  bool slabs = false;  ///< in the report, too
+  bool slabs = false;                    ///< in the report, too
+  std::optional<SlabChoice> range = {};  ///< only these, as a part for `loft join`
   bool quiet = false;
 };
 
@@ -184,6 +191,14 @@ struct ConvertCommand {
   bool quiet = false;
 };
 
+/// `loft join PART... -o OUT`
+struct JoinCommand {
+  std::vector<std::filesystem::path> parts;
+  std::filesystem::path output;
+  bool json = false;
+  bool quiet = false;
+};
+
 /// `loft slice MESH -o OUT --gap G`
 struct SliceCommand {
   std::filesystem::path mesh;
@@ -273,5 +288,6 @@ struct SessionCommand {
 [[nodiscard]] ExitCode run(const SessionCommand& command);
 [[nodiscard]] ExitCode run(const ConvertCommand& command);
 [[nodiscard]] ExitCode run(const SliceCommand& command);
+[[nodiscard]] ExitCode run(const JoinCommand& command);
 
 }  // namespace loft::app

@@ -230,11 +230,14 @@ const char* how(const path& output) {
 }
 
 void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
-  if (report.parts.size() > 1)
+  if (!report.range.empty())
+    terminal.say("the slabs " + report.range + ", open to those beside them; see loft join");
+  if (report.parts.size() > 1 && report.range.empty())
     for (const std::string& line : volume_table(report.parts, command.unit)) terminal.say(line);
   for (const PartReport& part : report.parts) {
     const std::string prefix = part.label.empty() ? "" : part.label + ": ";
-    if (report.parts.size() == 1) terminal.say(prefix + describe(part.measures, command.unit));
+    if (report.parts.size() == 1 && report.range.empty())
+      terminal.say(prefix + describe(part.measures, command.unit));
     if (!part.repairs.empty())
       terminal.say(prefix + describe(summarize(part.repairs), command.unit));
   }

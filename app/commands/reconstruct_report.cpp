@@ -156,6 +156,16 @@ Measures sum(const std::vector<PartReport>& parts) {
   return total;
 }
 
+/// An open surface has no volume, and nobody knows its genus.
+void leave_out_of_range(Json& json) {
+  const auto leave_out = [](Json& of) { of["genus"] = of["volume"] = Json(); };
+  leave_out(json);
+  for (Json& part : json["parts"]) {
+    leave_out(part);
+    part["slab_volume"] = Json();
+  }
+}
+
 }  // namespace
 
 std::string to_json(const Report& report, const ReconstructCommand& command) {
@@ -176,6 +186,7 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
   json["out_of_core"] = report.is_out_of_core;
   const Shard& shard = command.shard;
   json["shard"] = shard.is_all() ? Json() : Json::array({shard.index, shard.count});
+  if (!report.range.empty()) json["slabs"] = report.range;
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;
@@ -186,6 +197,7 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
   json["existing"] = report.existing;
   json["parts"] = Json::array();
   for (const PartReport& part : report.parts) json["parts"].push_back(to_json(part, command.slabs));
+  if (!report.range.empty()) leave_out_of_range(json);
   return print(json);
 }
 

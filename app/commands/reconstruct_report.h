@@ -68,6 +68,8 @@ struct SkippedLabel {
 ///                          max_edge, target_edge, simplify if given
 ///     out_of_core          whether the stack stayed in its files
 ///     shard                [I, N]: this job's share of the labels; null: all of them
+///     slabs                with --slabs: the range, `A..B`. Figures are then those of the part;
+///                          its genus and volumes, which an open surface has not, are null
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
 ///     seconds              of each stage that there is: read, fair, clean, tile, smooth,
 ///                          refine, sew, simplify, write, total
@@ -80,7 +82,7 @@ struct SkippedLabel {
 ///                          vertices_of_kind (contour, cleaning, crossing, steiner), cleaning
 ///                          (area; counts by kind; slices: a list of slice, z, repairs, area),
 ///                          repairs (a list); with
-///                          --slabs slabs (a list; out of core an empty one)
+///                          --list-slabs slabs (a list, from low to high)
 ///
 /// volume: what the surface encloses; slab_volume: the sum of each slice's area times its
 /// thickness, as planning systems and counts of voxels have it. angles: of the smallest one of each
@@ -105,6 +107,7 @@ struct Report {
   std::map<std::string, double> seconds;
   std::size_t peak_memory = 0;  ///< in bytes
   bool is_out_of_core = false;
+  std::string range = {};  ///< of slabs, `A..B`; empty if there is none
 };
 
 [[nodiscard]] std::string to_json(const Report& report, const ReconstructCommand& command);

@@ -30,6 +30,7 @@
 #include "io/triangulations.h"
 #include "io/unit.h"
 #include "io/version.h"
+#include "reconstruct/out_of_core.h"
 
 namespace loft::app {
 
@@ -136,7 +137,7 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   sub->add_flag("--strict", command.strict,
                 "Exit with 3 if no surface could be made of a label (the others are written)");
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
-  sub->add_flag("--slabs", command.slabs, "List all slabs and their links in it");
+  sub->add_flag("--list-slabs", command.slabs, "List all slabs and their links in it");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
   sub->add_option_function<std::string>(
          "--format", [&command](const std::string&) { command.is_neuroglancer = true; },
@@ -181,6 +182,13 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   sub->add_flag_callback("--in-memory", memory(Memory::in_memory),
                          "Read the stack as a whole, whatever its size")
       ->excludes(out);
+  sub->add_option_function<std::string>(
+         "--slabs", [&command](const std::string& text) { command.range = slab_choice(text); },
+         "Only the slabs from slice A up to slice B, counted by height from 0, out of core: a part "
+         "for 'loft join', so that several jobs or machines share one stack. Looks at " +
+             std::to_string(slices_beside_range) + " slices more on either side")
+      ->type_name("A..B")
+      ->check(CLI::Validator(complain_of_slabs, ""));
   sub->footer(
       "Examples:\n"
       "  A plan: the organs at risk, a file each, their volumes as the planning system has them\n"
@@ -195,6 +203,10 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       "    loft reconstruct part.cli -o part.stl --simplify 0.01\n"
       "  Scanned cross-sections in space, with even triangles\n"
       "    loft reconstruct points.csv -o hull.ply --target-edge 2\n"
+      "  One huge stack by two jobs, anywhere and in any order; then as one file\n"
+      "    loft reconstruct block.ndjson --slabs ..500 -o low.ply\n"
+      "    loft reconstruct block.ndjson --slabs 500.. -o high.ply\n"
+      "    loft join low.ply high.ply -o block.ply\n"
       "  One of a hundred jobs that make a mesh of each label for Neuroglancer\n"
       "    loft reconstruct cells.nrrd -o precomputed://meshes --shard 7/100 --skip-existing\n"
       "\n"
@@ -228,6 +240,30 @@ CLI::App* add_convert(CLI::App& app, ConvertCommand& command) {
       "  Traced sections for programs of papers, or layers for a printer\n"
       "    loft convert cell.mod -o cell.contour\n"
       "    loft convert part.ndjson -o part.cli");
+  return sub;
+}
+
+/// Adds `loft join`; the command is ready when the line has been parsed.
+CLI::App* add_join(CLI::App& app, JoinCommand& command) {
+  CLI::App* sub = app.add_subcommand(
+      "join", "Join the parts that reconstruct --slabs made of one stack, in any order");
+  sub->add_option("PART", command.parts, "Parts, PLY files that have all slabs of the stack once")
+      ->required();
+  begin_group(*sub, results);
+  sub->add_option("-o,--output", command.output,
+                  "PLY file: the same bytes as of the whole stack at once")
+      ->required()
+      ->type_name("OUT");
+  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  sub->footer(
+      "Parts say what stack and options they are of; those that do not fit, are missing, twice "
+      "there\n"
+      "or damaged are named, and nothing is written. Memory does not grow with the parts.\n"
+      "Examples:\n"
+      "  loft reconstruct block.ndjson --slabs ..500 -o low.ply\n"
+      "  loft reconstruct block.ndjson --slabs 500.. -o high.ply\n"
+      "  loft join low.ply high.ply -o block.ply");
   return sub;
 }
 
@@ -608,6 +644,7 @@ CommandLine::CommandLine()
       throw UsageError("loft slice needs --gap or --heights");
     return run_at_once(slice_);
   });
+  when(add_join(app_, join_), [this] { return app::run(join_); });
   when(add_info(app_, info_), [this] { return run_at_once(info_); });
   when(add_help(app_, help_), [this] { return show_help(app_, help_); });
   when(add_completion(app_, shell_), [this] {

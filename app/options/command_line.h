@@ -42,6 +42,7 @@ class CommandLine {
   InfoCommand info_;
   ConvertCommand convert_;
   SliceCommand slice_;
+  JoinCommand join_;
   std::vector<std::string> help_;  // the words behind it
   std::string shell_;
   std::vector<std::pair<const CLI::App*, std::function<ExitCode()>>> runs_;

@@ -50,6 +50,30 @@ std::optional<std::array<double, Count>> numbers_in(const std::string& text) {
 
 }  // namespace
 
+std::optional<SlabChoice> slab_choice(const std::string& text) {
+  const std::size_t dots = text.find("..");
+  if (dots == std::string::npos || text == "..") return {};
+  const auto number = [](std::string_view digits) -> std::optional<std::size_t> {
+    std::size_t value = 0;
+    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const bool is_whole = error == std::errc() && end == digits.data() + digits.size();
+    return is_whole ? std::optional(value) : std::nullopt;
+  };
+  const std::string low = text.substr(0, dots);
+  const std::string high = text.substr(dots + 2);
+  const auto first = low.empty() ? std::optional<std::size_t>(0) : number(low);
+  const auto bound = number(high);
+  if (!first || (!bound && !high.empty()) || (bound && *bound <= *first)) return {};
+  return SlabChoice{*first, bound};
+}
+
+std::string complain_of_slabs(const std::string& text) {
+  if (slab_choice(text)) return {};
+  return "'" + text +
+         "' is no range of slabs; give A..B, A.. or ..B, from the slice A up to the slice B, "
+         "counted by height from 0 (the list of slabs in the report is --list-slabs)";
+}
+
 std::optional<Vec3> spacing(const std::string& text) {
   const auto lengths = numbers_in<3>(text);
   if (!lengths) return {};

@@ -26,6 +26,10 @@ namespace loft::app {
 [[nodiscard]] std::string complain_of_place(const std::string& text);
 [[nodiscard]] std::string complain_of_direction(const std::string& text);
 
+[[nodiscard]] std::string complain_of_slabs(const std::string& text);
+
+/// `A..B`, `A..`, `..B`; none if the text is anything else.
+[[nodiscard]] std::optional<SlabChoice> slab_choice(const std::string& text);
 /// Three lengths with commas between them; none if the text is anything else.
 [[nodiscard]] std::optional<Vec3> spacing(const std::string& text);
 /// Two coordinates that a triangulation takes.

@@ -288,7 +288,7 @@ class Reader {
 
   [[nodiscard]] static std::vector<double> numbers(const tinygltf::Value& list) {
     std::vector<double> result;
-    for (std::size_t i = 0; list.IsArray() && i < list.ArrayLen(); ++i)
+    for (int i = 0; list.IsArray() && i < static_cast<int>(list.ArrayLen()); ++i)
       result.push_back(list.Get(i).IsNumber() ? list.Get(i).GetNumberAsDouble() : 0);
     return result;
   }

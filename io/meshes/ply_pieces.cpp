@@ -6,8 +6,10 @@
 #include <fstream>
 #include <utility>
 
+#include "io/bytes/checksum.h"
 #include "io/bytes/file.h"
 #include "io/meshes/label_colour.h"
+#include "io/meshes/ply_part.h"
 #include "io/meshes/ply_records.h"
 
 namespace loft::io {
@@ -102,20 +104,44 @@ void PlyPieces::commit() {
     counts.faces += part.face_count;
   }
   AtomicFile file(path_);
-  file.stream() << ply_header(labels_, is_labelled_, counts);
-  copy_vertices(file.stream());
-  copy_faces(file.stream());
+  const Write write = [&](std::string_view bytes) {
+    file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    check(file.stream(), path_);
+  };
+  write(ply_header(labels_, is_labelled_, counts));
+  copy_vertices(write);
+  copy_faces(write);
   file.commit();
 }
 
-void PlyPieces::copy_vertices(std::ostream& out) {
+void PlyPieces::commit(const PlyPartNote& note, std::span<const std::uint32_t> seam_places) {
+  AtomicFile file(path_);
+  std::uint64_t sum = no_checksum;
+  const Write write = [&](std::string_view bytes) {
+    sum = checksum(bytes, sum);
+    file.stream().write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    check(file.stream(), path_);
+  };
+  write(PlyPartHeader{note, labels_}.text());
+  copy_vertices(write);
+  copy_faces(write);
+  bytes_.resize(seam_places.size() * ply_seam_face_size);
+  char* place = bytes_.data();
+  for (const std::uint32_t said : seam_places) place = put(place, said);
+  write(bytes_);
+  bytes_.resize(ply_checksum_size);
+  put(bytes_.data(), sum);
+  write(bytes_);
+  file.commit();
+}
+
+void PlyPieces::copy_vertices(const Write& write) {
   read_back(vertices_, ply_vertex_size(is_labelled_), [&](std::span<char> bytes) {
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    check(out, path_);
+    write({bytes.data(), bytes.size()});
   });
 }
 
-void PlyPieces::copy_faces(std::ostream& out) {
+void PlyPieces::copy_faces(const Write& write) {
   auto part = parts_.begin();
   std::uint64_t left = part->face_count;
   const std::size_t size = ply_face_size(is_labelled_);
@@ -129,8 +155,7 @@ void PlyPieces::copy_faces(std::ostream& out) {
         put(corner, static_cast<std::uint32_t>(number));
       }
     }
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-    check(out, path_);
+    write({bytes.data(), bytes.size()});
   });
 }
 

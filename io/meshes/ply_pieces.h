@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/bytes/atomic_file.h"
@@ -15,6 +17,7 @@
 namespace loft::io {
 
 struct PlyLabel;  // io/meshes/ply_records.h
+struct PlyPartNote;
 
 /// Writes a PLY file from surfaces that come piece by piece: the bytes of write_ply().
 ///
@@ -40,8 +43,13 @@ class PlyPieces : public SurfaceSink {
 
   /// Puts the file in its place. Precondition: all surfaces have ended.
   void commit();
+  /// The same for a part (PlyPartHeader), each of whose surfaces came from reconstruct_slabs().
+  /// `note.surfaces` has their sizes, `seam_places` the places of their seam faces, in order.
+  void commit(const PlyPartNote& note, std::span<const std::uint32_t> seam_places);
 
  private:
+  using Write = std::function<void(std::string_view)>;
+
   struct Part {
     std::uint64_t first_vertex = 0;
     std::uint64_t vertex_count = 0;
@@ -50,8 +58,8 @@ class PlyPieces : public SurfaceSink {
   };
 
   [[nodiscard]] std::optional<PlyLabel> label() const;
-  void copy_vertices(std::ostream& out);
-  void copy_faces(std::ostream& out);
+  void copy_vertices(const Write& write);
+  void copy_faces(const Write& write);
 
   std::filesystem::path path_;
   std::vector<std::string> labels_;

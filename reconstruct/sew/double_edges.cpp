@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Sewing: edges that still join the same two vertices get midpoints of their own.
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "reconstruct/sew/sewing.h"
@@ -22,10 +23,12 @@ void Sewing::split_double_edges(std::vector<Crowd>& crowds) {
 /// so that they go on touching corner by corner.
 void Sewing::split_double_edges(const Crowd& crowd) {
   const auto ends = [this](HalfEdge h) { return std::minmax({vertex(h), vertex(next(h))}); };
+  std::map<HalfEdge, HalfEdge> uncut;  // before cuts, so that no layer but these two has a say
+  for (const HalfEdge h : crowd.half_edges) uncut[latest(h)] = h;
   std::vector<HalfEdge> edges;
-  for (HalfEdge h : crowd.half_edges) {
-    h = latest(h);
-    if (mate(h).is_none() || h < mate(h)) edges.push_back(h);
+  for (const HalfEdge before : crowd.half_edges) {
+    const HalfEdge h = latest(before);
+    if (mate(h).is_none() || before < uncut.at(mate(h))) edges.push_back(h);
   }
   std::ranges::sort(edges, {}, ends);
   if (std::ranges::adjacent_find(edges, {}, ends) == edges.end()) return;

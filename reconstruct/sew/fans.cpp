@@ -123,6 +123,9 @@ void Sewing::separate(std::uint32_t layer) {
   state.upper_rim = {};
   state.corner_counts = {};
   state.first_corners = {};
+  added_.push_back({static_cast<std::uint32_t>(doubled_.size()),
+                    static_cast<std::uint32_t>(midpoints_.size()),
+                    static_cast<std::uint32_t>(cut_faces_.size())});
 }
 
 }  // namespace loft

@@ -90,6 +90,19 @@ class Sewing {
     return at(layer).cuts;
   }
 
+  /// What sewing has added by and by, in its order.
+  struct Added {
+    std::uint32_t doubled = 0;
+    std::uint32_t midpoints = 0;
+    std::uint32_t cuts = 0;  ///< faces
+  };
+  /// What it had added before it came to a layer and the slice below it. All of a final layer's
+  /// corners that are doubled were added with it or the layer below, all that are midpoints with it
+  /// or the layer above. Precondition: the layer below is final.
+  [[nodiscard]] Added added_before(std::uint32_t layer) const {
+    return layer == 0 ? Added{} : added_[layer - 1];
+  }
+
   /// The vertex number of a corner of a final layer, as in VertexNumbers.
   [[nodiscard]] std::uint32_t vertex(HalfEdge corner) const;
   /// Where a corner of a final layer is.
@@ -203,6 +216,7 @@ class Sewing {
   std::vector<SlicePoint> doubled_points_;  // what each of them was
   std::vector<SurfaceVertex> midpoints_;
   std::vector<HalfEdge> cut_faces_;
+  std::vector<Added> added_;            // up to each layer
   std::map<HalfEdge, HalfEdge> moved_;  // half-edges that cuts gave another number
 };
 

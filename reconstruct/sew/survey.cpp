@@ -29,12 +29,17 @@ void Survey::add_face(const std::array<Vec3, 3>& corners) {
   sum_.add(corners);
 }
 
-void Survey::connect(const Sewing& sewing, std::uint32_t layer) {
+void Survey::connect(const Sewing& sewing, std::uint32_t layer, std::uint32_t first,
+                     std::uint32_t bound) {
+  const auto mate_of = [&](std::uint32_t h) {
+    const HalfEdge mate = sewing.mate({layer, h});
+    return mate.layer < first || mate.layer >= bound ? HalfEdge() : mate;
+  };
   const auto face_count = sewing.layer(layer).tiles.tiles.size();
   DisjointSets faces(face_count);
   std::vector<std::array<std::uint32_t, 2>> rim;
   for (std::uint32_t h = 0; h < 3 * face_count; ++h) {
-    const HalfEdge mate = sewing.mate({layer, h});
+    const HalfEdge mate = mate_of(h);
     if (mate.is_none())
       rim.push_back({sewing.vertex({layer, h}), sewing.vertex(Sewing::next(HalfEdge{layer, h}))});
     if (mate.layer == layer) faces.unite(h / 3, mate.face());
@@ -47,7 +52,7 @@ void Survey::connect(const Sewing& sewing, std::uint32_t layer) {
   for (std::uint32_t f = 0; f < face_count; ++f)
     part[f] = faces.find(f) == f ? parts_.add() : part[faces.find(f)];
   for (std::uint32_t h = 0; h < 3 * face_count; ++h) {
-    const HalfEdge mate = sewing.mate({layer, h});
+    const HalfEdge mate = mate_of(h);
     if (!mate.is_none() && mate.layer < layer) parts_.unite(part[h / 3], part_[mate.face()]);
   }
   part_ = std::move(part);

@@ -20,8 +20,9 @@ class Survey {
   /// A face, in the order of faces.
   void add_face(const std::array<Vec3, 3>& corners);
   /// How the faces of a final layer are connected, to one another and to those of the layer below,
-  /// which was the last one.
-  void connect(const Sewing& sewing, std::uint32_t layer);
+  /// which was the last one. Beyond the layers from `first` up to `bound` the surface ends.
+  void connect(const Sewing& sewing, std::uint32_t layer, std::uint32_t first = 0,
+               std::uint32_t bound = Origin::none);
 
   [[nodiscard]] Measures measures();
   [[nodiscard]] const std::array<std::size_t, 4>& vertices_of_kind() const { return kinds_; }

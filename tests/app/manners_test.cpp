@@ -159,7 +159,7 @@ TEST(Manners, ReportsListSlabsOnlyWhereThatIsAsked) {
   const json parts = json::parse(brief)["parts"];
   EXPECT_EQ(parts.size(), 490U);
   EXPECT_FALSE(parts[0].contains("slabs"));
-  const std::string full = run(folder, "reconstruct in.ndjson -o a.ply --json --slabs -q").out;
+  const std::string full = run(folder, "reconstruct in.ndjson -o a.ply --json --list-slabs -q").out;
   EXPECT_EQ(json::parse(full)["parts"][489]["slabs"].size(), 7U);
 }
 
