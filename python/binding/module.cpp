@@ -6,6 +6,7 @@
 #include "io/meshes.h"
 #include "io/stack.h"
 #include "io/surfaces.h"
+#include "io/unit.h"
 #include "io/version.h"
 #include "python/binding/errors.h"
 #include "python/binding/job.h"
@@ -18,6 +19,8 @@ PYBIND11_MODULE(_loft, module) {
   module.def("stack_extensions", &loft::io::stack_extensions);
   module.def("surface_extensions", &loft::io::surface_extensions);
   module.def("mesh_extensions", &loft::io::mesh_extensions);
+  module.def("is_unit",
+             [](const std::string& unit) { return loft::io::metres_per_unit(unit).has_value(); });
   module.def("wait_for_abandoned", &wait_for_abandoned);
   watch_forks();
   translate_errors();
