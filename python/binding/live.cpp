@@ -113,13 +113,14 @@ py::tuple move_contour(const LivePointer& live, double z, std::size_t contour,
 LivePointer live_of_stack(const std::shared_ptr<Stack>& stack, const py::dict& named,
                           const std::optional<std::string>& label) {
   const Options options = live_options(named, label);
-  return result_of(py::none(), [slices = stack->slices, options](Job& job) mutable {
-    std::ranges::stable_sort(slices, {}, &Slice::z);
+  std::vector<Slice> ascending = stack->slices;
+  std::ranges::stable_sort(ascending, {}, &Slice::z);
+  return result_of(py::none(), [slices = std::move(ascending), options](Job& job) {
     Reconstruction surface(options);
     for (std::size_t i = 0; i < slices.size(); ++i) {
       const double part = static_cast<double>(i) / static_cast<double>(slices.size());
       if (!job.report(Stage::tile, part)) throw Cancelled();
-      surface.insert(std::move(slices[i]));
+      surface.insert(slices[i]);
     }
     return std::make_shared<SharedLive>(std::in_place, std::move(surface), options.threads);
   });
