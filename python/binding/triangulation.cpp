@@ -101,7 +101,7 @@ PlanePointer shared(cdt::Triangulation mesh) {
 /// owns what it uses.
 template <class Work>
 auto use(const PlanePointer& plane, std::size_t points, Work work) {
-  constexpr std::size_t few = 4000;
+  constexpr std::size_t few = 256;
   if (points <= few) return plane->use(std::move(work));
   return result_of(py::none(),
                    [plane, work = std::move(work)](Job&) { return plane->use_in_job(work); });
@@ -218,17 +218,29 @@ void move_line(const PlanePointer& plane, std::uint32_t id, const Array<double>&
   });
 }
 
+/// 0 where there is none.
+std::size_t line_size(const PlanePointer& plane, std::uint32_t id) {
+  return plane->use([=](Plane& there) {
+    const cdt::ConstraintId line(id);
+    return there.mesh.is_constraint(line) ? there.mesh.segments(line).size() : 0;
+  });
+}
+
 void translate_line(const PlanePointer& plane, std::uint32_t id, double x, double y) {
-  plane->use([=](Plane& there) {
+  use(plane, line_size(plane, id), [=](Plane& there) {
     return there.edit([&](cdt::Triangulation& mesh) {
-      return mesh.translate(cdt::ConstraintId(id), cdt::Point{x, y});
+      mesh.translate(cdt::ConstraintId(id), cdt::Point{x, y});
+      return true;
     });
   });
 }
 
 void remove_line(const PlanePointer& plane, std::uint32_t id) {
-  plane->use([=](Plane& there) {
-    return there.edit([&](cdt::Triangulation& mesh) { mesh.remove(cdt::ConstraintId(id)); });
+  use(plane, line_size(plane, id), [=](Plane& there) {
+    return there.edit([&](cdt::Triangulation& mesh) {
+      mesh.remove(cdt::ConstraintId(id));
+      return true;
+    });
   });
 }
 
@@ -496,10 +508,10 @@ py::bytes plane_bytes(const PlanePointer& plane) {
 }
 
 PlanePointer plane_of_bytes(const py::bytes& bytes) {
-  const std::string text = bytes;
-  const py::gil_scoped_release unlocked;
-  std::istringstream in(text);
-  return shared(cdt::load(in));
+  return result_of(py::none(), [text = std::string(bytes)](Job&) {
+    std::istringstream in(text);
+    return shared(cdt::load(in));
+  });
 }
 
 }  // namespace

@@ -141,7 +141,8 @@ class Reconstruction:
         """One that begins with the slices of a stack; faster than inserting them one by one."""
         if not isinstance(stack, Stack):
             raise InputError(f"stack: a loft.Stack is wanted, not {type(stack).__name__}")
-        made = cls(label=label, **{"unit": stack.unit or "mm", **options})
+        options.setdefault("unit", stack.unit or "mm")
+        made = cls(label=label, **options)
         made._live = _loft.reconstruction_of_stack(stack._stack, made.options, made.label)
         return made
 
