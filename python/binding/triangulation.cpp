@@ -93,14 +93,14 @@ struct Plane {
 using SharedPlane = InTurn<Plane>;
 using PlanePointer = std::shared_ptr<SharedPlane>;
 
-PlanePointer shared(cdt::Triangulation mesh) {
+PlanePointer shared_plane(cdt::Triangulation mesh) {
   return std::make_shared<SharedPlane>(std::in_place, std::move(mesh));
 }
 
 /// work(plane): at once where it has to do with few points, else so that Ctrl-C is heard. `work`
 /// owns what it uses.
 template <class Work>
-auto use(const PlanePointer& plane, std::size_t points, Work work) {
+auto use_plane(const PlanePointer& plane, std::size_t points, Work work) {
   constexpr std::size_t few = 256;
   if (points <= few) return plane->use(std::move(work));
   return result_of(py::none(),
@@ -146,7 +146,7 @@ void require_places(const std::vector<cdt::Point>& points) {
 
 std::uint32_t insert_line(const PlanePointer& plane, const Array<double>& array, bool is_closed) {
   const std::vector<cdt::Point> points = points_of(array);
-  return use(plane, points.size(), [points, is_closed](Plane& there) {
+  return use_plane(plane, points.size(), [points, is_closed](Plane& there) {
     return there.edit([&](cdt::Triangulation& mesh) {
       return mesh.insert(points, is_closed ? cdt::closed : cdt::open).index();
     });
@@ -194,7 +194,7 @@ std::vector<std::uint32_t> insert_lines(const PlanePointer& plane, const Array<d
                                         const Array<std::int64_t>& offsets,
                                         const Array<std::uint8_t>& are_closed) {
   const Lines lines(points, offsets, are_closed);
-  return use(plane, lines.point_count(), [lines](Plane& there) {
+  return use_plane(plane, lines.point_count(), [lines](Plane& there) {
     return there.edit(
         [&](cdt::Triangulation& mesh) { return numbers_of(mesh.insert(lines.polylines())); });
   });
@@ -210,7 +210,7 @@ std::uint32_t insert_vertex(const PlanePointer& plane, double x, double y) {
 
 void move_line(const PlanePointer& plane, std::uint32_t id, const Array<double>& array) {
   const std::vector<cdt::Point> points = points_of(array);
-  use(plane, points.size(), [id, points](Plane& there) {
+  use_plane(plane, points.size(), [id, points](Plane& there) {
     return there.edit([&](cdt::Triangulation& mesh) {
       mesh.move(cdt::ConstraintId(id), points);
       return true;
@@ -227,7 +227,7 @@ std::size_t line_size(const PlanePointer& plane, std::uint32_t id) {
 }
 
 void translate_line(const PlanePointer& plane, std::uint32_t id, double x, double y) {
-  use(plane, line_size(plane, id), [=](Plane& there) {
+  use_plane(plane, line_size(plane, id), [=](Plane& there) {
     return there.edit([&](cdt::Triangulation& mesh) {
       mesh.translate(cdt::ConstraintId(id), cdt::Point{x, y});
       return true;
@@ -236,7 +236,7 @@ void translate_line(const PlanePointer& plane, std::uint32_t id, double x, doubl
 }
 
 void remove_line(const PlanePointer& plane, std::uint32_t id) {
-  use(plane, line_size(plane, id), [=](Plane& there) {
+  use_plane(plane, line_size(plane, id), [=](Plane& there) {
     return there.edit([&](cdt::Triangulation& mesh) {
       mesh.remove(cdt::ConstraintId(id));
       return true;
@@ -374,7 +374,7 @@ bool may_be_inside(cdt::Point p) {
 
 py::array triangles_at(const PlanePointer& plane, const Array<double>& array) {
   const std::vector<cdt::Point> points = points_of(array);
-  return to_array(use(plane, points.size(), [points](Plane& there) {
+  return to_array(use_plane(plane, points.size(), [points](Plane& there) {
     std::vector<std::int64_t> found;
     found.reserve(points.size());
     const NumberingPointer made = there.numbered();
@@ -390,7 +390,7 @@ py::array triangles_at(const PlanePointer& plane, const Array<double>& array) {
 py::array nearest_vertices(const PlanePointer& plane, const Array<double>& array) {
   const std::vector<cdt::Point> points = points_of(array);
   require_places(points);
-  return to_array(use(plane, points.size(), [points](Plane& there) {
+  return to_array(use_plane(plane, points.size(), [points](Plane& there) {
     std::vector<std::int64_t> found;
     found.reserve(points.size());
     const NumberingPointer made = there.numbered();
@@ -496,7 +496,7 @@ py::tuple plane_counts(const PlanePointer& plane) {
 // --- Copies ---
 
 PlanePointer copy_of(const PlanePointer& plane) {
-  return shared(plane->use([](Plane& there) { return there.mesh; }));
+  return shared_plane(plane->use([](Plane& there) { return there.mesh; }));
 }
 
 py::bytes plane_bytes(const PlanePointer& plane) {
@@ -510,7 +510,7 @@ py::bytes plane_bytes(const PlanePointer& plane) {
 PlanePointer plane_of_bytes(const py::bytes& bytes) {
   return result_of(py::none(), [text = std::string(bytes)](Job&) {
     std::istringstream in(text);
-    return shared(cdt::load(in));
+    return shared_plane(cdt::load(in));
   });
 }
 
@@ -518,7 +518,7 @@ PlanePointer plane_of_bytes(const py::bytes& bytes) {
 
 void add_triangulation(py::module_& module) {
   py::class_<SharedPlane, PlanePointer>(module, "Triangulation")
-      .def(py::init([](double epsilon) { return shared(cdt::Triangulation(epsilon)); }))
+      .def(py::init([](double epsilon) { return shared_plane(cdt::Triangulation(epsilon)); }))
       .def("epsilon",
            [](const PlanePointer& plane) {
              return plane->use([](Plane& there) { return there.mesh.epsilon(); });

@@ -178,7 +178,7 @@ class Reconstruction:
         return _change(self._live.replace_many(Stack([self._one(*one) for one in pairs])._stack))
 
     def remove(self, z: float) -> Change:
-        """Removes the slice at z. Raises InputError where there is none, with the nearest height."""
+        """Removes the slice at z. Raises InputError, with the nearest height, where there is none."""
         return _change(self._live.remove(_height(z)))
 
     def move_contour(self, z: float, contour: int, points: Any) -> Change:

@@ -26,7 +26,7 @@ class Triangles(NamedTuple):
 
 
 class Edges(NamedTuple):
-    """Constrained edges, and the constraints along each: `constraints[offsets[i]:offsets[i + 1]]`."""
+    """Constrained edges; along edge i are `constraints[offsets[i]:offsets[i + 1]]`."""
 
     edges: NDArray[np.uint32]  #: (k, 2) numbers of vertices
     offsets: NDArray[np.int64]  #: (k + 1,)
@@ -196,7 +196,7 @@ class Triangulation:
         return list(self._mesh.insert_many(points, offsets, _flags(closed, len(offsets) - 1)))
 
     def insert_point(self, point: ArrayLike) -> int:
-        """Inserts a vertex that belongs to no constraint, or finds the one there; the vertex's id."""
+        """Inserts a vertex that belongs to no constraint, or finds the one there; its id."""
         return int(self._mesh.insert_point(*_pair(point, "point")))
 
     def move(self, constraint: int, points: Any) -> None:

@@ -265,8 +265,8 @@ class Errors(unittest.TestCase):
         mesh = loft.Triangulation()
         line = mesh.insert(SQUARE, closed=True)
         before = shape(mesh)
-        for wrong in ([], [(0, 0, 0, 0)], [(0, float("nan"))], [(1e80, 0)], [(1e-60, 0)], "abc", None,
-                      [(0, 0), (1,)], np.zeros((2, 2, 2)), np.ma.masked_array([[0, 0]], [[1, 0]]),
+        for wrong in ([], [(0, 0, 0, 0)], [(0, float("nan"))], [(1e80, 0)], [(1e-60, 0)], "abc",
+                      None, [(0, 0), (1,)], np.zeros((2, 2, 2)), np.ma.masked_array([[0, 0]], [[1, 0]]),
                       [("a", "b")], np.zeros((1, 2), dtype=complex), object()):
             for call in (mesh.insert, lambda w: mesh.move(line, w),
                          lambda w: mesh.insert_many([SQUARE, w]), mesh.insert_point):
@@ -331,6 +331,9 @@ class Errors(unittest.TestCase):
             mesh.nearest([(np.nan, 0)])
 
     def test_the_low_level_checks_what_it_is_given(self):
+        for type_ in (loft._loft.Triangulation, loft._loft.Reconstruction):
+            with self.assertRaises((TypeError, RuntimeError)):
+                type_.__new__(type_).counts()  # which holds nothing
         mesh = loft._loft.Triangulation(0.0)
         points, flags = np.zeros((3, 2)), np.zeros(1, dtype=np.uint8)
         for offsets in ([0], [0, 4], [-1, 2], [2, 1], [[0, 1]], [0, 1, 2]):
