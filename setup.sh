@@ -22,7 +22,7 @@ if [ "$what" = bench ]; then
 fi
 if [ "$what" = tests ]; then
   packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-16 clang-tidy-16
-    chromium doxygen groff-base bsdutils python3"
+    chromium doxygen groff-base bsdutils python3 parallel"
 fi
 # Node.js often comes from elsewhere than Debian, npm with it.
 if [ -n "${1:-}" ] && ! command -v npm > /dev/null; then
