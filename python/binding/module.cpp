@@ -29,4 +29,6 @@ PYBIND11_MODULE(_loft, module) {
   add_surface(module);
   add_reconstruct(module);
   add_meshes(module);
+  add_triangulation(module);
+  add_live(module);
 }

@@ -30,5 +30,7 @@ void add_volume(py::module_& module);
 void add_surface(py::module_& module);
 void add_reconstruct(py::module_& module);
 void add_meshes(py::module_& module);
+void add_triangulation(py::module_& module);
+void add_live(py::module_& module);
 
 }  // namespace loft::python
