@@ -308,7 +308,8 @@ class Stack:
 
 
 def _restored(arrays: Any, unit: str, rest: Any, sources: List[str]) -> Stack:
-    stack = _loft.stack_from_arrays(*arrays, unit)
+    points, offsets, slices, labels, names, heights = arrays
+    stack = _loft.stack_from_arrays(points, offsets, slices, labels, names, heights, unit)
     stack.set_rest(*rest)
     return Stack._of(stack, sources)
 
