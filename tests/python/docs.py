@@ -1,9 +1,9 @@
 # SPDX-License-Identifier: MIT
 """Runs all that the documentation of the module shows: python docs.py ROOT.
 
-These are the examples (`>>>`) in docstrings, and each ```python block of python/README.md, in their
-order, in one namespace, in a folder that has the files of samples/data. A block that imports what
-is not installed is only compiled, and named.
+These are the examples (`>>>`) in docstrings, and each ```python block of README.md, docs and
+python/README.md: those of a file in their order, in one namespace, in a folder that has nothing but
+samples. A block that imports what is not installed is only compiled, and named.
 """
 
 import ast
@@ -74,25 +74,24 @@ def blocks(path):
         yield found[1], text.count("\n", 0, found.start()) + 1
 
 
-def markdown(path, samples):
+def markdown(path, root):
     tried = failed = 0
     with tempfile.TemporaryDirectory() as folder:
-        for file in samples.iterdir():
-            os.symlink(file, Path(folder, file.name))
+        os.symlink(root / "samples", Path(folder, "samples"))
         os.chdir(folder)
         names = {"__name__": "__main__"}
         for block, line in blocks(path):
             tried += 1
-            failed += not run(block, str(path), line, names)
-        os.chdir(samples)
+            failed += not run(block, str(path.relative_to(root)), line, names)
+        os.chdir(root)
     return tried, failed
 
 
 root = Path(sys.argv[1]).resolve()
-readme = root / "python" / "README.md"
 results = {"docstrings": docstrings()}
-if readme.exists():
-    results["python/README.md"] = markdown(readme, root / "samples" / "data")
+for path in [root / "README.md", *sorted(root.glob("docs/*.md")), root / "python" / "README.md"]:
+    results[path.relative_to(root)] = markdown(path, root)
 for what, (tried, failed) in results.items():
     print(f"{what}: {tried} tried, {failed} failed")
-sys.exit(any(failed or not tried for tried, failed in results.values()))
+wanted = {"docstrings", Path("python/README.md")}
+sys.exit(any(failed or (what in wanted and not tried) for what, (tried, failed) in results.items()))
