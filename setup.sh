@@ -27,7 +27,7 @@ if [ "$what" = python ]; then
   packages="$packages $python"
 fi
 if [ "$what" = tests ]; then
-  packages="$packages $python python3-mypy python3-dask python3-distributed python3-mpi4py openmpi-bin"
+  packages="$packages $python python3-mypy patchelf python3-dask python3-distributed python3-mpi4py openmpi-bin"
   packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-16 clang-tidy-16
     chromium doxygen groff-base bsdutils python3"
 fi

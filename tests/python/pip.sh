@@ -14,12 +14,7 @@ unset PYTHONPATH PIP_FIND_LINKS
 
 "$python" -m venv --system-site-packages "$scratch/system"
 "$python" -m venv --without-pip "$scratch/alone"
-"$python" - "$scratch/alone"/lib/python3*/site-packages << 'END'
-import glob, os, sys, numpy
-found = os.path.dirname(os.path.dirname(numpy.__file__))
-for path in glob.glob(found + "/numpy") + glob.glob(found + "/numpy[-.]*"):
-    os.symlink(path, os.path.join(sys.argv[1], os.path.basename(path)))
-END
+"$python" tests/python/numpy_alone.py "$scratch"/alone/lib/python3*/site-packages
 
 pip=$scratch/system/bin/pip
 for environment in system alone; do
