@@ -55,6 +55,22 @@ def licences(libraries):
     return {name: path.read_bytes() for name, path in files.items() if path.exists()}
 
 
+def with_dictionary(files, libraries):
+    """DCMTK reads the names of DICOM's elements from a file."""
+    for name in libraries:
+        version = re.fullmatch(r"libdcmdata\.so\.(\d+)", name)
+        if not version:
+            continue
+        dictionary = Path(f"/usr/share/libdcmtk{version[1]}/dicom.dic")
+        files["loft_surfaces.libs/dicom.dic"] = dictionary.read_bytes()
+        files["loft/__init__.py"] += b"""
+import os as _os
+
+_os.environ.setdefault("DCMDICTPATH", _os.path.join(
+    _os.path.dirname(_os.path.dirname(__file__)), "loft_surfaces.libs", "dicom.dic"))
+"""
+
+
 def carried(files):
     """The files of a wheel, and the libraries that they need."""
     libraries = {}
@@ -66,6 +82,7 @@ def carried(files):
             files[name] = with_rpath(files[name], "$ORIGIN/../loft_surfaces.libs")
     for name, path in sorted(libraries.items()):
         files[f"loft_surfaces.libs/{name}"] = with_rpath(path.read_bytes(), "$ORIGIN")
+    with_dictionary(files, libraries)
     return files, licences(libraries.values())
 
 
@@ -82,4 +99,4 @@ path = Path(folder, f"{backend.stem()}-{tag}.whl")
 path.parent.mkdir(parents=True, exist_ok=True)
 backend.write_wheel(path, files)
 print(f"{path}: {path.stat().st_size / 2**20:.1f} MiB, "
-      f"{sum(name.startswith('loft_surfaces.libs/') for name in files)} libraries")
+      f"{sum(name.startswith('loft_surfaces.libs/lib') for name in files)} libraries")

@@ -8,7 +8,7 @@ cd "$(dirname "$0")/../.."
 python=$1 build=$2 scratch=$3
 rm -rf "$scratch"
 export PIP_NO_INDEX=1 PIP_CONFIG_FILE=/dev/null PIP_DISABLE_PIP_VERSION_CHECK=1 PIP_NO_CACHE_DIR=1
-unset PYTHONPATH PIP_FIND_LINKS
+unset PYTHONPATH PIP_FIND_LINKS DCMDICTPATH
 PYTHON=$python sh python/wheel.sh "$build" "$scratch"
 
 "$python" -m venv "$scratch/env"
@@ -17,7 +17,9 @@ PYTHON=$python sh python/wheel.sh "$build" "$scratch"
 cd "$scratch"
 env/bin/python -B - env "$OLDPWD/samples/data" << END
 exec(open("$OLDPWD/tests/python/try_loft.py").read())
-import re
+import os, re
+assert os.environ["DCMDICTPATH"].startswith(str(prefix)) and loft.read(
+    samples / "mim_7.0.3_four_rois.dcm").labels
 loaded = {line.split(maxsplit=5)[5].strip() for line in open("/proc/self/maps") if ".so" in line}
 carried = {path for path in loaded if re.search(
     "/lib(OpenMesh|tbb|tinygltf|csv|dcmdata|tiff|meshoptimizer|zip|icu|crypto|xml)", path)}
