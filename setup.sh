@@ -29,7 +29,7 @@ fi
 if [ "$what" = tests ]; then
   packages="$packages $python python3-mypy patchelf python3-dask python3-distributed python3-mpi4py openmpi-bin"
   packages="$packages libgtest-dev libgmock-dev libboost-dev clang-format clang-16 clang-tidy-16
-    chromium doxygen groff-base bsdutils python3"
+    chromium doxygen groff-base bsdutils python3 parallel"
 fi
 # Node.js often comes from elsewhere than Debian, npm with it.
 if [ -n "$what" ] && [ "$what" != python ] && ! command -v npm > /dev/null; then

@@ -24,6 +24,8 @@ Failure current_failure() {
     return {error.what(), is_reading ? ExitCode::bad_input : ExitCode::cannot_write};
   } catch (const loft::Cancelled&) {
     return {"interrupted; nothing was written", ExitCode::interrupted};
+  } catch (const Interrupted& error) {
+    return {error.what(), ExitCode::interrupted};
   } catch (const loft::Error& error) {
     return {error.what(), ExitCode::cannot_write};
   } catch (const std::bad_alloc&) {

@@ -14,6 +14,7 @@
 #include "io/meshes/off.h"
 #include "io/meshes/ply.h"
 #include "io/meshes/stl.h"
+#include "io/precomputed.h"
 
 namespace loft::io {
 
@@ -47,7 +48,7 @@ constexpr std::array mesh_readers{
 std::string mesh_extensions() { return extensions_of(mesh_readers); }
 
 bool is_mesh_file(const std::filesystem::path& path) {
-  return find_format(mesh_readers, path) != nullptr;
+  return precomputed_folder(path) || find_format(mesh_readers, path) != nullptr;
 }
 
 bool keeps_coordinates(const std::filesystem::path& path) {
@@ -56,11 +57,14 @@ bool keeps_coordinates(const std::filesystem::path& path) {
 }
 
 std::vector<LabelledMesh> read_meshes(const std::filesystem::path& path) {
+  if (const auto folder = precomputed_folder(path)) return read_precomputed(*folder);
   return format_of(mesh_readers, path).read(path);
 }
 
 std::vector<Slice> read_contours(const std::filesystem::path& path) {
-  if (extension(path) != ".ply") return {};
+  const std::string format = extension(path);
+  if (format == ".glb" || format == ".gltf") return read_gltf_contours(path);
+  if (format != ".ply") return {};
   return read_ply_contours(read_file(path), path.string());
 }
 

@@ -36,9 +36,11 @@ std::string fault(const WorldFrame& frame) {
   return {};
 }
 
-const StackLabel* Stack::find_label(std::string_view name) const {
+const StackLabel* find(std::span<const StackLabel> labels, std::string_view name) {
   const auto found = std::ranges::find(labels, name, &StackLabel::name);
   return found == labels.end() ? nullptr : &*found;
 }
+
+const StackLabel* Stack::find_label(std::string_view name) const { return find(labels, name); }
 
 }  // namespace loft

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +34,9 @@ struct StackLabel {
 
   friend bool operator==(const StackLabel&, const StackLabel&) = default;
 };
+
+/// Null where there is none of that name.
+[[nodiscard]] const StackLabel* find(std::span<const StackLabel> labels, std::string_view name);
 
 /// Where the slices of a stack lie in the world: x, y in a slice and its z, by a matrix whose last
 /// row is 0 0 0 1. Right-handed (its determinant is positive), so that outside stays outside.

@@ -44,7 +44,7 @@ rounding      io/rounding/*                  meshes
 gltf          io/gltf/*                      rounding
 planar        io/planar/*                    bytes
 session       io/session/*                   stacks
-io            io/{fields,maps,meshes,points,polylines,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf planar session
+io            io/{fields,maps,meshes,points,polylines,precomputed,scenes,stack,stack_file,stack_writer,surfaces,tables,triangulations}     gltf planar session
 
 words         app/{descriptors,exit_code,failure,interrupt,json,memory,overwriting,place,report,stopwatch,table,terminal}  io
 capture       app/capture/*                  words

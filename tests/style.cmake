@@ -83,3 +83,8 @@ if(TARGET make_stacks)
   set_tests_properties(samples.figures PROPERTIES PASS_REGULAR_EXPRESSION
     "10 vertices, 0 of them.*[1-9] of them crossings.*10 vertices, 0 of them")
 endif()
+
+# The recipes of docs/scale.md run; the container is built by `ctest -L soak`, where it can be.
+add_test(NAME recipes.jobs COMMAND sh ${root}/tests/recipes.sh $<TARGET_FILE:loft>)
+add_test(NAME recipes.container COMMAND sh ${root}/tests/recipes.sh container)
+set_tests_properties(recipes.container PROPERTIES LABELS soak TIMEOUT 3600)

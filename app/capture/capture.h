@@ -24,6 +24,7 @@
 #include "io/session/session.h"
 #include "io/stacks/edit.h"
 #include "reconstruct/live/snapshot.h"
+#include "reconstruct/stack.h"
 
 namespace loft::app {
 
@@ -69,9 +70,10 @@ struct CaptureView {
 class Capture {
  public:
   struct Setup {
-    std::string kind = "capture";  ///< what viewers are told that it is: or a `session`
-    std::string name = {};         ///< of its file
-    Options options = {};          ///< threads is ignored: one thread works
+    std::string kind = "capture";         ///< what viewers are told that it is: or a `session`
+    std::string name = {};                ///< of its file
+    Options options = {};                 ///< threads is ignored: one thread works
+    std::vector<StackLabel> labels = {};  ///< what their source tells of them, as far as it does
     std::string unit = "mm";
     double metres_per_unit = 0.001;
     /// Steps that one edit may take (cdt/effort.h); beyond, it is rejected and nothing has changed.

@@ -41,7 +41,9 @@ void Recorder::add_picture(const NetChange& change, const CaptureView& view) {
   for (const SlabKey& slab : change.removed()) replay_.remove(time, slab_name(slab));
   for (const auto& [part, i] : looking_different(change, view)) {
     const auto& [label, snapshot] = view.parts[part];
-    replay_.add(time, slab_name({part, snapshot.slab(i).id}), snapshot, i, label);
+    const StackLabel* const said = find(labels_, label);
+    replay_.add(time, slab_name({part, snapshot.slab(i).id}), snapshot, i, label,
+                said == nullptr ? std::nullopt : said->colour);
   }
 }
 

@@ -4,9 +4,12 @@
 #include <cstddef>
 #include <exception>
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "app/capture/capture.h"
 #include "io/gltf/replay.h"
+#include "reconstruct/stack.h"
 
 namespace loft::app {
 
@@ -14,7 +17,9 @@ namespace loft::app {
 class Recorder {
  public:
   /// `rate`: edits a second, in the replay.
-  Recorder(double metres_per_unit, double rate) : replay_(metres_per_unit), rate_(rate) {}
+  /// `labels`: what the source tells of them.
+  Recorder(double metres_per_unit, double rate, std::vector<StackLabel> labels)
+      : replay_(metres_per_unit), rate_(rate), labels_(std::move(labels)) {}
 
   /// The next picture: what an edit has changed. Never throws.
   void add(const NetChange& change, const CaptureView& view);
@@ -26,6 +31,7 @@ class Recorder {
 
   io::Replay replay_;
   double rate_;
+  std::vector<StackLabel> labels_;
   std::size_t count_ = 0;
   std::exception_ptr failure_;
 };

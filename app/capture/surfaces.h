@@ -13,11 +13,17 @@ namespace loft::app {
 /// The surfaces of a capture, as files have them: those that have faces.
 class Surfaces {
  public:
-  explicit Surfaces(const CaptureView& view) {
+  /// `about`: what their source tells of labels.
+  Surfaces(const CaptureView& view, std::span<const StackLabel> about) {
     for (const auto& [label, snapshot] : view.parts) {
       if (snapshot.slab_count() == 0) continue;
       surfaces_.emplace_back(snapshot);
-      parts_.push_back({label, &surfaces_.back().surface});
+      io::Part& part = parts_.emplace_back(io::Part{label, &surfaces_.back().surface});
+      const StackLabel* const said = find(about, label);
+      if (said == nullptr) continue;
+      part.colour = said->colour;
+      part.id = said->id;
+      part.kind = said->kind;
     }
   }
 

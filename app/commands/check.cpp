@@ -31,7 +31,7 @@ struct Verdict {
 
 std::vector<Verdict> judge(const std::vector<io::LabelledMesh>& meshes) {
   std::vector<Verdict> verdicts;
-  for (const auto& [label, mesh] : meshes) {
+  for (const auto& [label, mesh, colour] : meshes) {
     Verdict verdict{label, measure(mesh), contacts(mesh), {}};
     for (Finding& finding : check(mesh))
       verdict.faults[finding.fault].push_back(std::move(finding));

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "app/commands/shard.h"
 #include "app/exit_code.h"
 #include "cdt/point.h"
 #include "fields/field.h"
@@ -35,6 +36,9 @@ struct ReconstructCommand {
   io::ReadOptions read = {.unlabelled = io::Unlabelled::label_by_file};
   std::vector<std::string> only;  ///< labels, see LabelChoice
   std::vector<std::string> except;
+  Shard shard;                                          ///< of the labels that are left
+  bool skip_existing = false;                           ///< files that are there stay as they are
+  bool is_neuroglancer = false;                         ///< outputs are folders of meshes for it
   io::Compression compression = io::Compression::none;  ///< of glTF
   bool with_contours = false;                           ///< lines in glTF
   std::vector<std::string> hidden;                      ///< labels, see LabelChoice; in glTF
@@ -201,9 +205,10 @@ struct StreamCommand {
   std::optional<std::filesystem::path> session;
   Options options;
   std::string unit = "mm";
-  std::set<std::string> given;    ///< settings (settings.h) that the command line names
-  bool takes_stack_line = false;  ///< settings come from the first line of the input, too
-  std::size_t every = 0;          ///< edits after which the outputs are written; 0: at the end only
+  std::vector<StackLabel> labels;  ///< what the first line of the input tells of them
+  std::set<std::string> given;     ///< settings (settings.h) that the command line names
+  bool takes_stack_line = false;   ///< settings come from the first line of the input, too
+  std::size_t every = 0;  ///< edits after which the outputs are written; 0: at the end only
   bool serves = false;
   std::string host = "127.0.0.1";
   int port = 8337;

@@ -26,11 +26,11 @@ bool is_finite(const Vec3& place) {
 class PlacesAndEdges {
  public:
   explicit PlacesAndEdges(std::span<const io::LabelledMesh> meshes) {
-    for (const auto& [label, mesh] : meshes) {
+    for (const auto& [label, mesh, colour] : meshes) {
       std::ranges::copy_if(mesh.points, std::back_inserter(places_), is_finite);
     }
     sort_unique(places_);
-    for (const auto& [label, mesh] : meshes) add_edges(mesh);
+    for (const auto& [label, mesh, colour] : meshes) add_edges(mesh);
     sort_unique(edges_);
   }
 
@@ -86,7 +86,7 @@ class NearPlaces {
   /// `slack`: how much heights may differ.
   NearPlaces(std::span<const io::LabelledMesh> meshes, double distance, double slack)
       : distance_(distance), slack_(slack) {
-    for (const auto& [label, mesh] : meshes)
+    for (const auto& [label, mesh, colour] : meshes)
       std::ranges::copy_if(mesh.points, std::back_inserter(places_), is_finite);
     std::ranges::sort(places_, {}, by_height);
     places_.erase(std::unique(places_.begin(), places_.end()), places_.end());

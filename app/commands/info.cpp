@@ -218,7 +218,7 @@ struct MeshSummary {
 
 std::vector<MeshSummary> summarise(const std::vector<io::LabelledMesh>& meshes) {
   std::vector<MeshSummary> summaries;
-  for (const auto& [label, mesh] : meshes) {
+  for (const auto& [label, mesh, colour] : meshes) {
     MeshSummary summary{label, measure(mesh), {}};
     for (const Vec3& point : mesh.points) summary.bounds.add(point);
     summaries.push_back(std::move(summary));

@@ -39,7 +39,8 @@ void LabelProblems::add(const std::string& label, const InputError& error) {
 }
 
 void LabelProblems::raise(std::size_t label_count) const {
-  if (!fatal_.empty() || skipped_.size() == label_count) throw InputError(all_);
+  if (!fatal_.empty() || (label_count > 0 && skipped_.size() == label_count))
+    throw InputError(all_);
 }
 
 void check_labels_fit(std::size_t label_count, const std::filesystem::path& output) {

@@ -18,7 +18,8 @@ class LabelProblems {
   explicit LabelProblems(const ReconstructCommand& command) : command_(command) {}
 
   void add(const std::string& label, const InputError& error);
-  /// Throws InputError if anything is fatal, or all `label_count` labels are skipped.
+  /// Throws InputError if anything is fatal, or all of so many labels that were asked for, by
+  /// whatever job, are skipped here.
   void raise(std::size_t label_count) const;
   [[nodiscard]] const std::vector<SkippedLabel>& skipped() const { return skipped_; }
 

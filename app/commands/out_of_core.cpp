@@ -6,12 +6,13 @@
 #include <system_error>
 #include <utility>
 
-#include "app/commands/label_choice.h"
 #include "app/commands/label_files.h"
+#include "app/commands/label_work.h"
 #include "app/commands/labels.h"
 #include "app/commands/place_of.h"
 #include "app/commands/take_over.h"
 #include "app/interrupt.h"
+#include "app/memory.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
 #include "io/bytes/file.h"
@@ -65,11 +66,11 @@ class Overview {
   [[nodiscard]] bool bends_stairs() const { return stairs_.are_there(); }
   [[nodiscard]] const StackSize& total() const { return total_; }
   [[nodiscard]] const std::vector<Defect>& unusable() const { return unusable_; }
-  [[nodiscard]] std::vector<std::string> labels() const {
-    std::vector<std::string> names;
-    for (const auto& [label, size] : labels_) names.push_back(label);
-    if (names.empty()) names.emplace_back();
-    return names;
+  [[nodiscard]] std::vector<LabelSize> labels() const {
+    std::vector<LabelSize> sizes;
+    for (const auto& [label, size] : labels_) sizes.push_back({label, size.vertices});
+    if (sizes.empty()) sizes.emplace_back();
+    return sizes;
   }
   [[nodiscard]] StackSize size_of(const std::string& label) const {
     const auto found = labels_.find(label);
@@ -135,9 +136,13 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
   report.input = overview.total();
   report.seconds["read"] = stopwatch.lap();
 
-  const std::vector<std::string> names =
-      LabelChoice(command.only, command.except).chosen(overview.labels());
-  const bool is_labelled = names.size() > 1 || !names[0].empty();
+  const LabelWork work(command, overview.labels(), stack.about().labels);
+  const std::vector<std::string>& names = work.labels();
+  report.existing = work.existing();
+  PeakMemory memory;
+  report.peak_memory = memory.in_all();
+  terminal.clear_progress();
+  if (names.empty()) return;
   std::vector<std::optional<Colour>> colours;
   for (const std::string& name : names) {
     const StackLabel* const said = stack.about().find_label(name);
@@ -151,7 +156,7 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
   for (std::size_t i = 0; i < names.size(); ++i) {
     Options options = command.options;
     options.reports_slabs = command.json && command.slabs;
-    if (is_labelled) options.label = names[i];
+    if (work.is_labelled()) options.label = names[i];
     const StackLabel* const label = stack.about().find_label(names[i]);
     options.gap = label != nullptr && label->gap ? label->gap : stack.about().gap;
     const auto follow = [&](Stage stage, double fraction) {
@@ -171,13 +176,16 @@ void run_out_of_core(ReconstructCommand& command, Terminal& terminal, Report& re
       part.repairs = std::move(made.repairs);
       part.slabs = std::move(made.slabs);
       part.seconds["tile"] = stopwatch.lap();
+      part.seconds["total"] = part.seconds["tile"];
+      part.peak_memory = memory.lap();
       report.seconds["tile"] += part.seconds["tile"];
     } catch (const InputError& error) {
       problems.add(names[i], error);
       output.skip();
     }
   }
-  problems.raise(names.size());
+  report.peak_memory = memory.in_all();
+  problems.raise(work.chosen());
   report.skipped = problems.skipped();
   terminal.show_progress("write", share_of_reading + share_of_surfaces);
   output.commit();

@@ -1,41 +1,38 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/reconstruct.h"
 
-#include <array>
+#include <algorithm>
 #include <functional>
 #include <iostream>
 #include <list>
 #include <map>
-#include <set>
-#include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "app/commands/commands.h"
-#include "app/commands/label_choice.h"
 #include "app/commands/label_files.h"
+#include "app/commands/label_work.h"
 #include "app/commands/labels.h"
 #include "app/commands/out_of_core.h"
 #include "app/commands/parts.h"
 #include "app/commands/place_of.h"
 #include "app/commands/reconstruct_report.h"
+#include "app/commands/surface_outputs.h"
 #include "app/commands/take_over.h"
 #include "app/commands/volume_table.h"
-#include "app/commands/written.h"
 #include "app/interrupt.h"
-#include "app/overwriting.h"
+#include "app/memory.h"
 #include "app/place.h"
 #include "app/stopwatch.h"
 #include "app/terminal.h"
-#include "io/bytes/text.h"
-#include "io/gltf/gltf.h"
+#include "io/precomputed.h"
 #include "io/stack.h"
 #include "io/stacks/links_json.h"
-#include "io/surfaces.h"
 #include "io/unit.h"
 #include "mesh/measure.h"
 #include "reconstruct/fair.h"
 #include "reconstruct/fair/stairs.h"
-#include "reconstruct/number_text.h"
 #include "reconstruct/usable.h"
 
 namespace loft::app {
@@ -74,29 +71,6 @@ class Follower {
   std::map<std::string, double> seconds_;
 };
 
-/// Finds out early what would make the work useless.
-void check_outputs(const ReconstructCommand& command) {
-  check_gltf_options(command);
-  forbid_overwriting(command.inputs, command.outputs);
-  if (command.links) forbid_overwriting(std::array{*command.links}, command.outputs);
-  for (const path& output : command.outputs)
-    if (!is_per_label(output)) io::check_writable(output);
-}
-
-/// The same, once the labels are known.
-void check_outputs(const ReconstructCommand& command, const std::vector<std::string>& labels) {
-  static_cast<void>(hidden_labels(command, labels));
-  for (const path& output : command.outputs) {
-    if (!is_per_label(output)) {
-      check_labels_fit(labels.size(), output);
-      continue;
-    }
-    const std::vector<path> files = label_files(output, labels);
-    forbid_overwriting(command.inputs, files);
-    for (const path& file : files) io::check_writable(file);
-  }
-}
-
 struct Result {
   /// Made in its place, and stays there: an OpenMesh mesh cannot be moved, only copied.
   Result(const Stack& stack, const ContoursByLabel& contours, const Options& options,
@@ -116,37 +90,122 @@ struct Result {
   PartReport report;
 };
 
-/// All labels but those that are skipped, or one InputError for all that cannot be reconstructed.
-std::list<Result> reconstruct_all(const ReconstructCommand& command, const Stack& stack,
-                                  const Options& all_options, Terminal& terminal,
-                                  std::vector<SkippedLabel>& skipped) {
-  const ContoursByLabel contours(stack.slices);
-  std::vector<std::string> names =
-      LabelChoice(command.only, command.except).chosen(contours.labels());
-  if (names.empty()) names.emplace_back();
-  check_outputs(command, names);
-  const bool is_labelled = names.size() > 1 || !names[0].empty();
-  const bool is_measured =
-      command.json || !command.quiet || command.volumes;  // else nobody sees it
-  const double share = 1.0 / static_cast<double>(names.size());
-  std::list<Result> results;
-  LabelProblems problems(command);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    Options options = all_options;
-    if (is_labelled) options.label = names[i];
-    Follower follower(terminal, names[i], share * static_cast<double>(i), share);
+/// All that is known of a label, and its surface.
+io::Part part_of(const ReconstructCommand& command, const Stack& stack, const LabelWork& work,
+                 const Result& result) {
+  io::Part part = part_of(command, stack, result.report.label);
+  part.surface = &result.made.surface;
+  part.slices = result.report.input.slices;
+  part.is_hidden = work.is_hidden(part.label);
+  return part;
+}
+
+/// Makes the labels of a stack one after the other.
+class LabelLoop {
+ public:
+  LabelLoop(const ReconstructCommand& command, const Stack& stack, const Options& options,
+            Terminal& terminal, Report& report)
+      : command_(command),
+        stack_(stack),
+        options_(options),
+        terminal_(terminal),
+        report_(report),
+        contours_(stack.slices),
+        work_(command, sizes(), stack.labels) {
+    report.existing = work_.existing();
+    report.peak_memory = memory_.in_all();
+  }
+
+  /// Makes and writes the surfaces; one InputError for all labels that cannot be reconstructed.
+  void run() {
     try {
-      Result& result = results.emplace_back(stack, contours, options, follower);
-      if (is_measured) result.report.measures = measure(result.made.surface);
-    } catch (const InputError& error) {
-      problems.add(names[i], error);
+      make_all();
+      write_all();
+    } catch (const Cancelled&) {
+      throw_interrupted();
     }
   }
-  terminal.clear_progress();
-  problems.raise(names.size());
-  skipped = problems.skipped();
-  return results;
-}
+
+ private:
+  void make_all() {
+    const std::size_t count = work_.labels().size();
+    LabelProblems problems(command_);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::string& label = work_.labels()[i];
+      try {
+        make(label, static_cast<double>(i) / static_cast<double>(count),
+             1.0 / static_cast<double>(count));
+      } catch (const InputError& error) {
+        problems.add(label, error);
+      }
+    }
+    terminal_.clear_progress();
+    problems.raise(work_.chosen());
+    report_.skipped = problems.skipped();
+  }
+
+  std::vector<LabelSize> sizes() const {
+    std::vector<LabelSize> sizes;
+    for (const std::string& label : contours_.labels())
+      sizes.push_back({label, size_of(stack_.slices, contours_.of(label)).vertices});
+    if (sizes.empty()) sizes.emplace_back();
+    return sizes;
+  }
+
+  void make(const std::string& label, double begin, double share) {
+    Options options = options_;
+    if (work_.is_labelled()) options.label = label;
+    Stopwatch stopwatch;
+    memory_.lap();
+    Follower follower(terminal_, label, begin, share);
+    Result& result = results_.emplace_back(stack_, contours_, options, follower);
+    const bool is_measured = command_.json || !command_.quiet || command_.volumes;
+    if (is_measured) result.report.measures = measure(result.made.surface);  // else nobody sees it
+    write(result);
+    result.report.seconds["total"] = stopwatch.lap();
+    result.report.peak_memory = memory_.lap();
+    report_.peak_memory = std::max(report_.peak_memory, memory_.in_all());
+    if (!are_per_label(command_)) return;
+    report_.parts.push_back(std::move(result.report));
+    results_.pop_back();
+  }
+
+  /// What is of this label alone, at once: it stays whatever happens to the others.
+  void write(Result& result) {
+    Stopwatch stopwatch;
+    const io::Part part = part_of(command_, stack_, work_, result);
+    if (work_.outputs().write_label(part, terminal_)) ++made_;
+    result.report.seconds["write"] = stopwatch.lap();
+  }
+
+  void write_all() {
+    if (results_.empty()) return;
+    Stopwatch stopwatch;
+    std::vector<io::Part> parts;
+    for (const Result& result : results_) parts.push_back(part_of(command_, stack_, work_, result));
+    work_.outputs().write_all(parts, terminal_);
+    report_.seconds["write"] += stopwatch.lap();
+    for (Result& result : results_) report_.parts.push_back(std::move(result.report));
+  }
+
+  [[noreturn]] void throw_interrupted() const {
+    if (made_ == 0) throw Cancelled();
+    throw Interrupted("interrupted; " + grouped(made_) + " of " +
+                      counted(work_.labels().size(), "label") + (made_ == 1 ? " is" : " are") +
+                      " done, their files whole; --skip-existing goes on from there");
+  }
+
+  const ReconstructCommand& command_;
+  const Stack& stack_;
+  const Options& options_;
+  Terminal& terminal_;
+  Report& report_;
+  ContoursByLabel contours_;
+  LabelWork work_;
+  PeakMemory memory_;
+  std::list<Result> results_;
+  std::size_t made_ = 0;
+};
 
 /// Warns of every repair, but not of too many of a kind.
 void warn(const ReconstructCommand& command, const PartReport& part, Terminal& terminal) {
@@ -165,65 +224,9 @@ void warn(const ReconstructCommand& command, const PartReport& part, Terminal& t
   }
 }
 
-io::WriteOptions write_options(const ReconstructCommand& command) {
-  io::WriteOptions options;
-  options.metres_per_unit = *io::metres_per_unit(command.unit);
-  // File names only: the same stack gives the same bytes wherever it lies.
-  for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
-  options.settings = settings_of(command.options);
-  options.compression = command.compression;
-  return options;
-}
-
-std::vector<io::Part> parts_of(const ReconstructCommand& command, const Stack& stack,
-                               const std::list<Result>& results) {
-  std::vector<std::string> labels;
-  for (const Result& result : results) labels.push_back(result.report.label);
-  const std::set<std::string> hidden = hidden_labels(command, labels);
-  std::vector<io::Part> parts;
-  for (const Result& result : results) {
-    io::Part& part = parts.emplace_back(part_of(command, stack, result.report.label));
-    part.surface = &result.made.surface;
-    part.slices = result.report.input.slices;
-    part.is_hidden = hidden.contains(part.label);
-  }
-  return parts;
-}
-
-/// How far positions are moved in compressed glTF.
-void tell_rounding(const ReconstructCommand& command, const path& output,
-                   std::span<const io::Part> parts, const io::Written& written,
-                   Terminal& terminal) {
-  if (command.compression == io::Compression::none || command.quiet || !is_gltf(output)) return;
-  std::string words = output.string() + ": positions are rounded by at most " +
-                      io::short_number(io::quantisation_error(parts)) + ' ' + command.unit;
-  if (written.rounding.moved > 0)
-    words += "; " + counted(written.rounding.moved, "place") +
-             " a few steps farther, so that it stays valid";
-  terminal.say(words);
-}
-
-void write_one(const ReconstructCommand& command, const path& output,
-               std::span<const io::Part> parts, Terminal& terminal) {
-  if (is_interrupted()) throw Cancelled();
-  const io::Written written = io::write(output, parts, write_options(command));
-  tell(output, written, terminal);
-  tell_rounding(command, output, parts, written, terminal);
-}
-
-void write_all(const ReconstructCommand& command, std::span<const io::Part> parts,
-               Terminal& terminal) {
-  std::vector<std::string> labels;
-  for (const io::Part& part : parts) labels.push_back(part.label);
-  for (const path& output : command.outputs) {
-    if (!is_per_label(output)) {
-      write_one(command, output, parts, terminal);
-      continue;
-    }
-    const std::vector<path> files = label_files(output, labels);
-    for (std::size_t i = 0; i < files.size(); ++i)
-      write_one(command, files[i], parts.subspan(i, 1), terminal);
-  }
+const char* how(const path& output) {
+  if (io::precomputed_folder(output)) return ", a mesh a label";
+  return is_per_label(output) ? ", a file a label" : "";
 }
 
 void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
@@ -235,8 +238,13 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
     if (!part.repairs.empty())
       terminal.say(prefix + describe(summarize(part.repairs), command.unit));
   }
-  for (const path& output : command.outputs)
-    terminal.say("wrote " + output.string() + (is_per_label(output) ? ", a file a label" : ""));
+  if (!report.existing.empty())
+    terminal.say(counted(report.existing.size(), "label") + " left as they are: their files exist");
+  if (report.parts.empty()) {
+    terminal.say("nothing to do");
+    return;
+  }
+  for (const path& output : command.outputs) terminal.say("wrote " + output.string() + how(output));
 }
 
 /// Contours of a stack that are bent without being made fair.
@@ -270,13 +278,26 @@ void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& repo
   }
   if (command.links) options.links = io::read_links_json(*command.links, stack.slices);
   options.reports_slabs = command.json && command.slabs;
-  std::list<Result> results = reconstruct_all(command, stack, options, terminal, report.skipped);
-  stopwatch.lap();
-  write_all(command, parts_of(command, stack, results), terminal);
-  report.seconds["write"] = stopwatch.lap();
-  for (Result& result : results) {
-    for (const auto& [stage, seconds] : result.report.seconds) report.seconds[stage] += seconds;
-    report.parts.push_back(std::move(result.report));
+  LabelLoop(command, stack, options, terminal, report).run();
+  for (const PartReport& part : report.parts)
+    for (const auto& [stage, seconds] : part.seconds)
+      if (stage != "total") report.seconds[stage] += seconds;
+}
+
+/// The path with the scheme that --format asks for.
+void name_formats(ReconstructCommand& command) {
+  if (!command.is_neuroglancer) return;
+  for (path& output : command.outputs)
+    if (!io::precomputed_folder(output)) output = "precomputed://" + output.string();
+}
+
+void work(ReconstructCommand& command, Terminal& terminal, Report& report) {
+  if (is_all_there(command)) {
+    report.existing = command.only;
+  } else if (report.is_out_of_core) {
+    run_out_of_core(command, terminal, report);
+  } else {
+    run_in_memory(command, terminal, report);
   }
 }
 
@@ -285,17 +306,16 @@ void run_in_memory(ReconstructCommand& command, Terminal& terminal, Report& repo
 ExitCode run(const ReconstructCommand& given) {
   ReconstructCommand command = given;
   command.read.threads = command.options.threads;
+  name_formats(command);
   Terminal terminal(command.quiet);
   Report report;
   Stopwatch total;
+  const PeakMemory memory;
+  catch_interrupts();
   check_outputs(command);
   report.is_out_of_core = is_out_of_core(command);
-  catch_interrupts();
-  if (report.is_out_of_core) {
-    run_out_of_core(command, terminal, report);
-  } else {
-    run_in_memory(command, terminal, report);
-  }
+  work(command, terminal, report);
+  report.peak_memory = std::max(report.peak_memory, memory.in_all());
   report.seconds["total"] = total.lap();
 
   for (const SkippedLabel& label : report.skipped)

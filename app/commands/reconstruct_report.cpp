@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "app/json.h"
+#include "app/memory.h"
 #include "io/unit.h"
 
 namespace loft::app {
@@ -128,6 +129,7 @@ Json to_json(const PartReport& part, bool lists_slabs) {
   json["slab_volume"] = part.slab_volume;
   add_angles(json, part.measures.angles);
   json["seconds"] = part.seconds;
+  json["peak_memory_mb"] = megabytes(part.peak_memory);
   const auto& [contour, cleaning, crossing, steiner] = part.vertices_of_kind;
   json["vertices_of_kind"] = {
       {"contour", contour}, {"cleaning", cleaning}, {"crossing", crossing}, {"steiner", steiner}};
@@ -172,12 +174,16 @@ std::string to_json(const Report& report, const ReconstructCommand& command) {
       {"metres_per_unit", *io::metres_per_unit(command.unit)}};
   for (const auto& [setting, length] : lengths(command.options)) json["options"][setting] = length;
   json["out_of_core"] = report.is_out_of_core;
+  const Shard& shard = command.shard;
+  json["shard"] = shard.is_all() ? Json() : Json::array({shard.index, shard.count});
   add_size(json, report.input);
   add_measures(json, sum(report.parts));
   json["seconds"] = report.seconds;
+  json["peak_memory_mb"] = megabytes(report.peak_memory);
   json["skipped"] = Json::array();
   for (const auto& [label, message] : report.skipped)
     json["skipped"].push_back({{"label", label}, {"message", message}});
+  json["existing"] = report.existing;
   json["parts"] = Json::array();
   for (const PartReport& part : report.parts) json["parts"].push_back(to_json(part, command.slabs));
   return print(json);

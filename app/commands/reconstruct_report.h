@@ -45,7 +45,8 @@ struct PartReport {
   std::array<std::size_t, 4> vertices_of_kind{};  ///< by VertexKind
   std::vector<Defect> repairs;
   std::vector<SlabReport> slabs;
-  std::map<std::string, double> seconds;  ///< of each stage, by name(Stage)
+  std::map<std::string, double> seconds;  ///< of each stage, by name(Stage); total
+  std::size_t peak_memory = 0;            ///< of the program while it was made, in bytes
 };
 
 /// A label of which there is no surface, and why.
@@ -66,12 +67,16 @@ struct SkippedLabel {
 ///                          size), links (file or null), smooth, metres_per_unit; fair,
 ///                          max_edge, target_edge, simplify if given
 ///     out_of_core          whether the stack stayed in its files
+///     shard                [I, N]: this job's share of the labels; null: all of them
 ///     slices, contours, vertices_in, vertices, faces, components, genus, area, volume   in all
 ///     seconds              of each stage that there is: read, fair, clean, tile, smooth,
 ///                          refine, sew, simplify, write, total
+///     peak_memory_mb       the most memory in RAM, in units of 2^20 bytes
 ///     skipped              labels without a surface: label, message
+///     existing             labels that --skip-existing left as they are
 ///     parts                one a label: label, slices, contours, vertices_in, vertices, faces,
-///                          components, genus, area, volume, slab_volume, angles, seconds,
+///                          components, genus, area, volume, slab_volume, angles, seconds
+///                          (of each stage, total), peak_memory_mb (while it was made),
 ///                          vertices_of_kind (contour, cleaning, crossing, steiner), cleaning
 ///                          (area; counts by kind; slices: a list of slice, z, repairs, area),
 ///                          repairs (a list); with
@@ -96,7 +101,9 @@ struct Report {
   StackSize input;
   std::vector<PartReport> parts;
   std::vector<SkippedLabel> skipped;
+  std::vector<std::string> existing;  ///< labels that are not worked on, as their files are there
   std::map<std::string, double> seconds;
+  std::size_t peak_memory = 0;  ///< in bytes
   bool is_out_of_core = false;
 };
 

@@ -4,8 +4,10 @@
 #include <array>
 #include <charconv>
 #include <optional>
+#include <utility>
 
 #include "app/report.h"
+#include "io/stacks/stack_line.h"
 #include "io/unit.h"
 #include "reconstruct/number_text.h"
 
@@ -20,6 +22,20 @@ double number(const std::string& text) {
 }
 
 void set_length(std::optional<double>& length, const std::string& text) { length = number(text); }
+
+/// As labels_text() has them.
+void take_labels(StreamCommand& command, const std::string& text) {
+  auto said = io::parse_stack_line(text);
+  if (said && said->problems.empty()) command.labels = std::move(said->stack.labels);
+}
+
+std::string labels_text(const StreamCommand& command) {
+  Stack about;
+  about.labels = command.labels;
+  std::string line;
+  io::append_stack_line(line, about);
+  return line;
+}
 
 template <class Choice>
 void choose(Choice& choice, std::initializer_list<Choice> all, const std::string& text) {
@@ -36,6 +52,7 @@ void set(StreamCommand& command, const std::string& key, const std::string& valu
     choose(options.link, {LinkRule::automatic, LinkRule::overlap, LinkRule::none}, value);
   if (key == "smooth") options.smooth = value == "true";
   if (key == "unit") command.unit = value;
+  if (key == "labels") take_labels(command, value);
   if (key == "keyhole_width") set_length(options.keyhole_width, value);
   if (key == "tolerance") options.tolerance = number(value);
   if (key == "max_shift") set_length(options.max_shift, value);
@@ -58,6 +75,7 @@ Capture::Setup setup_of(const StreamCommand& command) {
   setup.options = command.options;
   setup.most_effort = static_cast<std::uint64_t>(command.most_effort * 1e6);
   setup.unit = command.unit;
+  setup.labels = command.labels;
   setup.metres_per_unit = io::metres_per_unit(command.unit).value_or(0.001);
   return setup;
 }
@@ -73,6 +91,7 @@ std::map<std::string, std::string> settings_of(const StreamCommand& command) {
     settings["keyhole_width"] = exact(*command.options.keyhole_width);
   if (command.options.tolerance != Options().tolerance || command.given.contains("tolerance"))
     settings["tolerance"] = exact(command.options.tolerance);
+  if (!command.labels.empty()) settings["labels"] = labels_text(command);
   if (command.options.max_shift) settings["max_shift"] = exact(*command.options.max_shift);
   return settings;
 }

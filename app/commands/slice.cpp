@@ -55,7 +55,7 @@ void turn_back(const WorldFrame& frame, Mesh& mesh) {
 std::vector<double> heights_at(double gap, const std::vector<io::LabelledMesh>& meshes) {
   double low = std::numeric_limits<double>::infinity();
   double high = -low;
-  for (const auto& [label, mesh] : meshes)
+  for (const auto& [label, mesh, colour] : meshes)
     for (const Vec3& point : mesh.points) {
       low = std::min(low, point[2]);
       high = std::max(high, point[2]);

@@ -76,6 +76,7 @@ void take_over_stack_line(StreamCommand& command) {
   if (!said || !said->problems.empty()) return;
   command.takes_stack_line = true;
   const Stack& stack = said->stack;
+  command.labels = stack.labels;
   const auto is_open = [&](const char* setting) { return !command.given.contains(setting); };
   if (is_open("unit") && io::metres_per_unit(stack.unit)) command.unit = stack.unit;
   if (is_open("fill") && stack.fill) command.options.fill = *stack.fill;
@@ -132,7 +133,8 @@ class Stream {
       : command_(command),
         input_position_(position_of(command, session)),
         terminal_(command.quiet),
-        recorder_(io::metres_per_unit(command.unit).value_or(0.001), command.replay_rate),
+        recorder_(io::metres_per_unit(command.unit).value_or(0.001), command.replay_rate,
+                  command.labels),
         capture_(setup(), std::move(session), feed_),
         saver_([this] { write_outputs(); }) {}
 
@@ -305,12 +307,13 @@ class Stream {
   /// what was wrong with the others.
   void write_outputs() {
     const std::shared_ptr<const CaptureView> view = capture_.view();
-    const Surfaces surfaces(*view);
+    const Surfaces surfaces(*view, command_.labels);
     if (surfaces.parts().empty()) return;
     io::WriteOptions options;
     options.metres_per_unit = capture_.setup().metres_per_unit;
     options.settings = settings_of(command_);
     options.settings.erase("unit");
+    options.settings.erase("labels");
     if (!command_.options.smooth) options.settings.erase("smooth");
     Attempts attempts;
     for (const path& output : command_.outputs)

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "app/commands/out_of_core.h"
+#include "app/commands/shard.h"
 #include "app/interrupt.h"
 #include "app/live/scenes.h"
 #include "app/options/complaints.h"
@@ -72,7 +73,7 @@ std::string footer() {
          "\n"
          "\n"
          "Exit codes: 0 ok, 1 check failed, 2 usage, 3 bad input, 4 cannot write, 130 "
-         "interrupted.\n"
+         "interrupted\n(SIGINT, SIGTERM, SIGHUP).\n"
          "Results go to stdout, words to stderr. NO_COLOR is respected.";
 }
 
@@ -98,6 +99,20 @@ void add_gltf_options(CLI::App& sub, ReconstructCommand& command) {
       ->allow_extra_args(false);
 }
 
+/// Shares of the work for jobs that are started again until all is done.
+void add_job_options(CLI::App& sub, ReconstructCommand& command) {
+  sub.add_option_function<std::string>(
+         "--shard",
+         [&command](const std::string& text) { command.shard = shard(text).value_or(Shard()); },
+         "Only share I of N of the labels, I from 0 to N - 1: they are dealt out by size, the same "
+         "on every machine; a share may be empty, which is no failure")
+      ->type_name("I/N")
+      ->check(CLI::Validator(complain_of_shard, ""));
+  sub.add_flag("--skip-existing", command.skip_existing,
+               "Leave files that are there as they are, and make nothing of labels whose files all "
+               "are: a job that was killed is just started again");
+}
+
 /// Adds `loft reconstruct`; the command is ready when the line has been parsed.
 CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   CLI::App* sub = app.add_subcommand("reconstruct", "Make closed surfaces from stacks of contours");
@@ -105,7 +120,8 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   begin_group(*sub, results);
   sub->add_option("-o,--output", command.outputs,
                   "Output file, " + loft::io::surface_extensions() +
-                      "; may be repeated; '{label}' in its name: a file a label")
+                      "; may be repeated; '{label}' in its name: a file a label; "
+                      "precomputed://FOLDER: meshes for Neuroglancer")
       ->required()
       ->type_name("OUT")
       ->allow_extra_args(false);
@@ -122,7 +138,14 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
   sub->add_flag("--slabs", command.slabs, "List all slabs and their links in it");
   sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  sub->add_option_function<std::string>(
+         "--format", [&command](const std::string&) { command.is_neuroglancer = true; },
+         "Outputs are folders of meshes for Neuroglancer (neuroglancer), as precomputed://OUT; "
+         "otherwise their names say what they are")
+      ->type_name("FORMAT")
+      ->check(CLI::IsMember({"neuroglancer"}));
   add_label_options(*sub, command.only, command.except);
+  add_job_options(*sub, command);
   add_read_options(*sub, command.read);
   sub->add_flag_callback(
       "--merge", [&command] { command.read.unlabelled = io::Unlabelled::keep; },
@@ -171,7 +194,14 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       "  The layers of a part, for printing or simulation\n"
       "    loft reconstruct part.cli -o part.stl --simplify 0.01\n"
       "  Scanned cross-sections in space, with even triangles\n"
-      "    loft reconstruct points.csv -o hull.ply --target-edge 2");
+      "    loft reconstruct points.csv -o hull.ply --target-edge 2\n"
+      "  One of a hundred jobs that make a mesh of each label for Neuroglancer\n"
+      "    loft reconstruct cells.nrrd -o precomputed://meshes --shard 7/100 --skip-existing\n"
+      "\n"
+      "For schedulers: 0 is success, of a shard without labels, too; after 2 and 3 (usage, bad "
+      "input)\nthe same job fails again; after 4 (cannot write: a full disk) and 130 (SIGINT, "
+      "SIGTERM,\nSIGHUP) start it again with --skip-existing. Whatever ends a job, its files are "
+      "whole or not\nthere; files of one label ({label}, Neuroglancer) are written as it is made.");
   return sub;
 }
 

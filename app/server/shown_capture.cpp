@@ -2,7 +2,9 @@
 #include "app/server/shown_capture.h"
 
 #include <algorithm>
+#include <set>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "app/capture/surfaces.h"
@@ -12,6 +14,17 @@
 namespace loft::app {
 
 namespace {
+
+/// How many slices have contours of a label. Cost: that of all contours, once for all labels.
+std::map<std::string_view, std::size_t> count_slices(const Snapshot& snapshot) {
+  std::map<std::string_view, std::size_t> counts;
+  for (std::size_t i = 0; i < snapshot.slice_count(); ++i) {
+    std::set<std::string_view> labels;
+    for (const Contour& contour : snapshot.slice(i).contours) labels.insert(contour.label);
+    for (const std::string_view label : labels) ++counts[label];
+  }
+  return counts;
+}
 
 /// So many faces make a GLB, and what the last slab has beyond.
 constexpr std::size_t most_bundled_faces = 32'768;
@@ -31,10 +44,12 @@ std::optional<std::string> ShownCapture::slab(std::size_t part, std::uint32_t id
 
 io::SlabView ShownCapture::view_of(const CaptureView& view, std::size_t part) const {
   const Capture::Setup& setup = capture_.setup();
+  const StackLabel* const said = find(setup.labels, view.parts[part].label);
   return {.label = view.parts[part].label,
           .is_double_sided = setup.options.cap == Cap::open,
           .origin = view.origin,
-          .metres_per_unit = setup.metres_per_unit};
+          .metres_per_unit = setup.metres_per_unit,
+          .colour = said == nullptr ? std::nullopt : said->colour};
 }
 
 std::string ShownCapture::slabs(std::span<const SlabRange> ranges, std::size_t most_bytes) {
@@ -77,6 +92,17 @@ std::vector<ShownLabel> ShownCapture::labels() {
   std::vector<ShownLabel> labels;
   for (std::size_t part = 0; part < view->parts.size(); ++part)
     labels.push_back(measure(*view, part, measured_, now));
+  // All parts go through the same slices.
+  const auto counts = view->parts.empty() ? std::map<std::string_view, std::size_t>()
+                                          : count_slices(view->parts.front().snapshot);
+  for (ShownLabel& label : labels) {
+    if (const auto found = counts.find(label.label); found != counts.end())
+      label.slices = found->second;
+    const StackLabel* const said = loft::find(capture_.setup().labels, label.label);
+    if (said == nullptr) continue;
+    label.colour = said->colour;
+    label.is_skin = io::is_skin(label.label, said->kind);
+  }
   measured_ = std::move(now);
   return labels;
 }
@@ -85,6 +111,7 @@ ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
                                  const MeasuredSlabs& before, MeasuredSlabs& now) {
   const auto& [label, snapshot] = view.parts[part];
   ShownLabel about{.label = label, .is_skin = io::is_skin(label), .volume = snapshot.volume()};
+  double area_of_all = 0;
   for (std::size_t i = 0; i < snapshot.slab_count(); ++i) {
     const SlabKey key{part, snapshot.slab(i).id};
     const auto known = before.find(key);
@@ -95,19 +122,17 @@ ShownLabel ShownCapture::measure(const CaptureView& view, std::size_t part,
       const Mesh mesh = snapshot.patch(i, i + 1).mesh;
       slab = {area(mesh), mesh.faces.size()};
     }
-    about.area += slab.area;
+    area_of_all += slab.area;
     about.faces += slab.faces;
     now.emplace(key, slab);
   }
-  const auto has_label = [&](const Contour& contour) { return contour.label == about.label; };
-  for (std::size_t i = 0; i < snapshot.slice_count(); ++i)
-    if (std::ranges::any_of(snapshot.slice(i).contours, has_label)) ++about.slices;
+  about.area = area_of_all;
   return about;
 }
 
 std::optional<std::string> ShownCapture::surface(std::string_view extension) {
   const auto view = capture_.view();
-  const Surfaces surfaces(*view);
+  const Surfaces surfaces(*view, capture_.setup().labels);
   if (surfaces.parts().empty()) return {};
   std::ostringstream out;
   io::write(out, extension, surfaces.parts(),

@@ -9,14 +9,16 @@ namespace loft::app {
 
 namespace {
 
+Json number_or_null(std::optional<double> number) { return number ? Json(*number) : Json(); }
+
 Json one_to_json(const ShownLabel& label) {
   return {
       {"label", label.label},
       {"colour", io::hexadecimal(label.colour.value_or(io::srgb(io::label_colour(label.label))))},
       {"is_skin", label.is_skin},
       {"slices", label.slices},
-      {"volume", label.volume},
-      {"area", label.area},
+      {"volume", number_or_null(label.volume)},
+      {"area", number_or_null(label.area)},
       {"faces", label.faces}};
 }
 

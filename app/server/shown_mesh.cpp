@@ -46,6 +46,7 @@ ShownMesh::ShownMesh(std::filesystem::path file, std::string unit)
     const Measures measures = measure(mesh.mesh);
     add(sum_, measures);
     ShownLabel about{.label = mesh.label,
+                     .colour = mesh.colour,
                      .is_skin = io::is_skin(mesh.label),
                      .slices = contours_.count(mesh.label),
                      .volume = measures.volume,
@@ -125,7 +126,8 @@ io::SlabView ShownMesh::view_of(const Part& part) const {
   return {.label = part.about.label,
           .is_double_sided = true,
           .origin = origin_,
-          .metres_per_unit = metres_per_unit_};
+          .metres_per_unit = metres_per_unit_,
+          .colour = part.about.colour};
 }
 
 std::string ShownMesh::slabs(std::span<const SlabRange> ranges, std::size_t most_bytes) {

@@ -44,7 +44,7 @@ std::pair<std::string, std::uint64_t> ShownStack::reset_event() const {
                    {"slabs", Json::array()},
                    {"slices", heights()},
                    {"counts", {{"slices", contours_.slices().size()}}},
-                   {"volume", 0},
+                   {"volume", nullptr},
                    {"unit", unit_},
                    {"metres_per_unit", io::metres_per_unit(unit_).value_or(0.001)},
                    {"downloads", Json::array()}};
@@ -64,7 +64,9 @@ std::vector<ShownLabel> ShownStack::labels() {
       labels.push_back({.label = contour.label,
                         .colour = said == nullptr ? std::nullopt : said->colour,
                         .is_skin = io::is_skin(contour.label, said == nullptr ? "" : said->kind),
-                        .slices = contours_.count(contour.label)});
+                        .slices = contours_.count(contour.label),
+                        .volume = {},
+                        .area = {}});
     }
   }
   return labels;

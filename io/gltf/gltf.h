@@ -11,6 +11,7 @@
 #include "io/meshes/grid.h"
 #include "io/meshes/labelled_mesh.h"
 #include "io/meshes/part.h"
+#include "reconstruct/slice.h"
 
 namespace loft::io {
 
@@ -59,5 +60,9 @@ void write_gltf(std::ostream& out, std::span<const Part> parts, const WriteOptio
 [[nodiscard]] std::vector<LabelledMesh> read_gltf(std::string_view content,
                                                   const std::filesystem::path& folder,
                                                   std::string_view name);
+
+/// The contours that write_glb() put beside the surfaces of such a file, as far as they lie in
+/// level slices: from low to high, each contour with its label. Throws as read_gltf().
+[[nodiscard]] std::vector<Slice> read_gltf_contours(const std::filesystem::path& path);
 
 }  // namespace loft::io

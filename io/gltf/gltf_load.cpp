@@ -144,15 +144,18 @@ class Filter {
   }
 
   std::string filtered() {
-    constexpr std::array<std::string_view, 8> kept{"asset",  "scene",     "scenes",      "nodes",
-                                                   "meshes", "accessors", "bufferViews", "buffers"};
+    constexpr std::array<std::string_view, 9> kept{"asset",       "scene",   "scenes",
+                                                   "nodes",       "meshes",  "accessors",
+                                                   "bufferViews", "buffers", "materials"};
     JsonReader json(text_, "text");
     if (json.peek() != JsonKind::object) fail("not glTF: " + reject(json, "an object"));
     std::string result = "{";
     json.begin_object();
     while (const auto key = json.next_key()) {
       const bool is_kept = std::ranges::find(kept, *key) != kept.end();
-      const std::string value = *key == "buffers" ? buffers(json) : std::string(json.text());
+      const std::string value = *key == "buffers"     ? buffers(json)
+                                : *key == "materials" ? materials(json)
+                                                      : std::string(json.text());
       if (!is_kept) continue;
       if (result.size() > 1) result += ',';
       append_json_string(result, *key);
@@ -183,6 +186,51 @@ class Filter {
       result += is_fallback && !uri ? no_bytes : text;
     }
     return result + ']';
+  }
+
+  /// The list, with nothing but colours: what else there may be is no part of a shape.
+  static std::string materials(JsonReader& json) {
+    if (json.peek() != JsonKind::list) {
+      json.skip();
+      return "[]";
+    }
+    json.begin_list();
+    std::string result = "[";
+    for (bool is_first = true; json.next_item(); is_first = false) {
+      if (!is_first) result += ',';
+      const auto metallic = member_of(json.text(), "pbrMetallicRoughness");
+      const auto factor = metallic ? member_of(*metallic, "baseColorFactor") : std::nullopt;
+      result += factor && are_shares(*factor) ? R"({"pbrMetallicRoughness":{"baseColorFactor":)" +
+                                                    compact_json(*factor) + "}}"
+                                              : "{}";
+    }
+    return result + ']';
+  }
+
+  /// As it is written; none in what is no object.
+  static std::optional<std::string_view> member_of(std::string_view text, std::string_view wanted) {
+    JsonReader json(text);
+    std::optional<std::string_view> found;
+    if (json.peek() != JsonKind::object) return {};
+    json.begin_object();
+    while (const auto key = json.next_key()) {
+      const std::string_view value = json.text();
+      if (*key == wanted) found = value;
+    }
+    return found;
+  }
+
+  /// Whether it is a list of four numbers.
+  static bool are_shares(std::string_view text) {
+    JsonReader json(text);
+    if (json.peek() != JsonKind::list) return false;
+    json.begin_list();
+    std::size_t count = 0;
+    for (; json.next_item(); ++count) {
+      if (json.peek() != JsonKind::number) return false;
+      json.skip();
+    }
+    return count == 4;
   }
 
   struct BufferMembers {

@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <optional>
 #include <type_traits>
 #include <utility>
@@ -15,8 +17,11 @@
 #include "io/gltf/affine.h"
 #include "io/gltf/gltf.h"
 #include "io/gltf/gltf_load.h"
+#include "io/meshes/label_colour.h"
 #include "io/meshes/polygons.h"
 #include "io/meshes/seam.h"
+#include "mesh/box3.h"
+#include "mesh/vec3.h"
 #include "reconstruct/defect.h"
 
 namespace loft::io {
@@ -95,23 +100,69 @@ double coordinate(const Elements& elements, const char* place, std::size_t axis)
   }
 }
 
+/// Contours as points in space, of a slice that should be level.
+struct FlatSlice {
+  Box3 box = no_box;
+  std::vector<Contour> contours;
+
+  void add(const Vec3& place, Contour& contour) {
+    box = extended(box, place);
+    contour.points.push_back({place[0], place[1]});
+  }
+};
+
+/// By the heights that the file says.
+class FlatSlices {
+ public:
+  FlatSlice& at(double height) { return slices_[height]; }
+
+  /// From low to high; none where one of them is not level, but for rounding. One that is said to
+  /// be at another height is where it is.
+  [[nodiscard]] std::vector<Slice> slices() const {
+    Box3 box = no_box;
+    for (const auto& [height, slice] : slices_) box = joined(box, slice.box);
+    const double tolerance = 1e-4 * length(minus(box.high, box.low));
+    std::vector<Slice> result;
+    for (const auto& [height, slice] : slices_) {
+      const double z = (slice.box.low[2] + slice.box.high[2]) / 2;
+      if (slice.box.high[2] - slice.box.low[2] > tolerance) return {};
+      result.push_back({std::abs(z - height) <= tolerance ? height : z, slice.contours});
+    }
+    std::ranges::stable_sort(result, {}, &Slice::z);
+    return result;
+  }
+
+ private:
+  std::map<double, FlatSlice> slices_;
+};
+
 class Reader {
  public:
   Reader(const tinygltf::Model& model, std::string name) : model_(model), name_(std::move(name)) {}
 
   std::vector<LabelledMesh> read() {
-    read_extras();
-    for (const tinygltf::Buffer& buffer : model_.buffers) most_elements_ += buffer.data.size();
-    for (const int root : roots()) visit(root, Affine(), 0);
+    visit_all();
     require_valid(polygons_.mesh, name_);
     std::vector<LabelledMesh> meshes = split(std::move(polygons_));
     for (LabelledMesh& part : meshes) part.mesh = sew_seams(part.mesh);
     return meshes;
   }
 
+  std::vector<Slice> read_contours() {
+    reads_contours_ = true;
+    visit_all();
+    return contours_.slices();
+  }
+
  private:
   [[noreturn]] void fail(const std::string& message) const {
     throw InputError(name_ + ": " + message);
+  }
+
+  void visit_all() {
+    read_extras();
+    for (const tinygltf::Buffer& buffer : model_.buffers) most_elements_ += buffer.data.size();
+    for (const int root : roots()) visit(root, Affine(), 0);
   }
 
   void read_extras() {
@@ -147,7 +198,12 @@ class Reader {
     // glTF's nodes are trees; without this check a small file could ask for endless work.
     if (depth > deepest_node || ++visits_ > model_.nodes.size()) fail("its nodes are no trees");
     const Affine map = above * transform(*node);
-    if (const auto* mesh = at(model_.meshes, node->mesh)) read_mesh(*mesh, map, node->name);
+    if (const auto* mesh = at(model_.meshes, node->mesh)) {
+      if (!reads_contours_)
+        read_mesh(*mesh, map, node->name);
+      else if (is_ours_ && node->extras.Has("contours_of"))
+        read_lines(*mesh, map, node->extras);
+    }
     for (const int child : node->children) visit(child, map, depth + 1);
   }
 
@@ -178,6 +234,17 @@ class Reader {
     for (std::size_t i = 0; i < positions.count; ++i) add_point(positions, i, map);
     const bool is_mirrored = determinant(map) < 0;
     add_triangles(corners, mode, static_cast<std::uint32_t>(first), is_mirrored, label);
+    polygons_.fill(colour_of(primitive));
+  }
+
+  /// None where there is no material: that is white, and nobody has chosen it.
+  [[nodiscard]] std::optional<Colour> colour_of(const tinygltf::Primitive& primitive) const {
+    const tinygltf::Material* const material = at(model_.materials, primitive.material);
+    if (material == nullptr) return {};
+    const std::vector<double>& factor = material->pbrMetallicRoughness.baseColorFactor;
+    if (factor.size() < 3 || std::ranges::all_of(factor, [](double share) { return share == 1; }))
+      return {};
+    return srgb({factor[0], factor[1], factor[2]});
   }
 
   /// Before memory is taken for them: nodes and primitives may name the same numbers many times.
@@ -190,13 +257,54 @@ class Reader {
            " vertices and corners");
   }
 
+  /// Those of one label, as contour_extras() tells them apart by slices. A contour ends where a
+  /// line leads back to its first point.
+  void read_lines(const tinygltf::Mesh& mesh, const Affine& map, const tinygltf::Value& extras) {
+    const std::vector<double> heights = numbers(extras.Get("heights"));
+    const std::vector<double> counts = numbers(extras.Get("vertices"));
+    if (mesh.primitives.empty() || mesh.primitives[0].mode != TINYGLTF_MODE_LINE) return;
+    const auto found = mesh.primitives[0].attributes.find("POSITION");
+    if (found == mesh.primitives[0].attributes.end()) fail("lines without POSITION");
+    const Elements positions = elements(found->second, TINYGLTF_TYPE_VEC3);
+    if (!is_number(positions.component_type)) fail("POSITION has numbers of a wrong type");
+    count_elements(mesh.primitives[0], positions.count);
+    const std::vector<std::uint32_t> ends = read_indices(mesh.primitives[0], positions.count);
+    const std::string label =
+        extras.Get("label").IsString() ? extras.Get("label").Get<std::string>() : "";
+    std::size_t slice = 0;
+    double end = counts.empty() ? 0 : counts[0];  // of the slice's vertices
+    for (std::size_t i = 0; i + 1 < ends.size();) {
+      const std::uint32_t first = ends[i];
+      while (slice + 1 < counts.size() && first >= end) end += counts[++slice];
+      if (slice >= heights.size()) return;
+      FlatSlice& flat = contours_.at(heights[slice]);
+      Contour& contour = flat.contours.emplace_back(Contour{{}, label});
+      for (bool is_open = true; is_open && i + 1 < ends.size(); i += 2) {
+        flat.add(place_of(positions, ends[i], map), contour);
+        is_open = ends[i + 1] != first;
+      }
+    }
+  }
+
+  [[nodiscard]] static std::vector<double> numbers(const tinygltf::Value& list) {
+    std::vector<double> result;
+    for (std::size_t i = 0; list.IsArray() && i < list.ArrayLen(); ++i)
+      result.push_back(list.Get(i).IsNumber() ? list.Get(i).GetNumberAsDouble() : 0);
+    return result;
+  }
+
   void add_point(const Elements& positions, std::size_t i, const Affine& map) {
+    polygons_.mesh.points.push_back(place_of(positions, i, map));
+  }
+
+  /// In the axes and the unit of the stack.
+  [[nodiscard]] Vec3 place_of(const Elements& positions, std::size_t i, const Affine& map) const {
     const char* place = positions.first + i * positions.stride;
     Vec3 point{};
     for (std::size_t axis = 0; axis < 3; ++axis) point[axis] = coordinate(positions, place, axis);
     const Vec3 placed = map(point);
-    polygons_.mesh.points.push_back({placed[0] / metres_per_unit_, -placed[2] / metres_per_unit_,
-                                     placed[1] / metres_per_unit_});
+    return {placed[0] / metres_per_unit_, -placed[2] / metres_per_unit_,
+            placed[1] / metres_per_unit_};
   }
 
   void add_triangles(std::span<const std::uint32_t> corners, int mode, std::uint32_t first,
@@ -290,6 +398,8 @@ class Reader {
   const tinygltf::Model& model_;
   std::string name_;
   Polygons polygons_;
+  FlatSlices contours_;
+  bool reads_contours_ = false;
   bool is_ours_ = false;
   double metres_per_unit_ = 1;
   std::size_t visits_ = 0;
@@ -308,6 +418,11 @@ std::vector<LabelledMesh> read_gltf(std::string_view content, const std::filesys
 
 std::vector<LabelledMesh> read_gltf(const std::filesystem::path& path) {
   return read_gltf(read_file(path), path.parent_path(), path.string());
+}
+
+std::vector<Slice> read_gltf_contours(const std::filesystem::path& path) {
+  const tinygltf::Model model = load_gltf(read_file(path), path.parent_path(), path.string());
+  return Reader(model, path.string()).read_contours();
 }
 
 }  // namespace loft::io

@@ -47,7 +47,7 @@ class Replay::Film {
   explicit Film(double metres_per_unit) : frame_{{}, metres_per_unit}, buffer_(model_) {}
 
   void add(double time, const std::string& key, const Snapshot& snapshot, std::size_t i,
-           const std::string& label) {
+           const std::string& label, std::optional<Colour> colour) {
     const std::size_t first = i - std::min<std::size_t>(i, 1);
     const Patch patch = snapshot.patch(first, std::min(i + 2, snapshot.slab_count()));
     ShadedMesh shaded = shade(patch, static_cast<std::uint32_t>(i));
@@ -62,7 +62,7 @@ class Replay::Film {
     tinygltf::Mesh mesh;
     mesh.name = name;
     mesh.primitives.push_back(primitive(std::move(shaded), frame_, buffer_, model_));
-    mesh.primitives.back().material = material_of(name);
+    mesh.primitives.back().material = material_of(name, colour);
     tinygltf::Node node;
     std::string height;
     append_number(height, snapshot.slab(i).low);
@@ -114,10 +114,10 @@ class Replay::Film {
     std::vector<Vec3> normals;
   };
 
-  int material_of(const std::string& name) {
+  int material_of(const std::string& name, std::optional<Colour> colour) {
     const auto [found, is_new] =
         materials_.try_emplace(name, static_cast<int>(model_.materials.size()));
-    if (is_new) model_.materials.push_back(material(name, false));
+    if (is_new) model_.materials.push_back(material(name, false, colour));
     return found->second;
   }
 
@@ -169,8 +169,8 @@ Replay::Replay(Replay&&) noexcept = default;
 Replay& Replay::operator=(Replay&&) noexcept = default;
 
 void Replay::add(double time, const std::string& key, const Snapshot& snapshot, std::size_t i,
-                 const std::string& label) {
-  film_->add(time, key, snapshot, i, label);
+                 const std::string& label, std::optional<Colour> colour) {
+  film_->add(time, key, snapshot, i, label, colour);
 }
 void Replay::remove(double time, const std::string& key) { film_->remove(time, key); }
 void Replay::write(std::ostream& out) const { film_->write(out); }

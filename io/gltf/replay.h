@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <ostream>
 #include <string>
 
 #include "mesh/mesh.h"
 #include "reconstruct/live/snapshot.h"
+#include "reconstruct/stack.h"
 
 namespace loft::io {
 
@@ -24,9 +26,10 @@ class Replay {
 
   /// Slab i of a snapshot appears, `time` seconds after the begin. `key` names it from then on.
   /// One that is there already is shaded anew if the slabs beside it, which smooth its normals,
-  /// have made a difference. Throws Error where coordinates are too large for glTF.
+  /// have made a difference. `colour`: that its source gives the label. Throws Error where
+  /// coordinates are too large for glTF.
   void add(double time, const std::string& key, const Snapshot& snapshot, std::size_t i,
-           const std::string& label);
+           const std::string& label, std::optional<Colour> colour = {});
   /// It goes. Nothing happens if it never appeared.
   void remove(double time, const std::string& key);
 

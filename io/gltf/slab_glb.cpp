@@ -52,7 +52,7 @@ std::string glb(ShadedMesh shaded, Extras extras, const SlabView& view) {
     mesh.primitives.push_back(primitive(std::move(shaded), frame, buffer, model));
     mesh.primitives.back().material = 0;
     model.meshes.push_back(std::move(mesh));
-    model.materials.push_back(material(name, view.is_double_sided));
+    model.materials.push_back(material(name, view.is_double_sided, view.colour));
     node.mesh = 0;
   } else {
     model.buffers.clear();

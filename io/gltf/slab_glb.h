@@ -3,10 +3,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 
 #include "reconstruct/live/snapshot.h"
+#include "reconstruct/stack.h"
 
 namespace loft::io {
 
@@ -17,6 +19,7 @@ struct SlabView {
   bool is_double_sided = false;
   Vec3 origin{};  ///< coordinates are relative to it; the node moves them back
   double metres_per_unit = 0.001;
+  std::optional<Colour> colour = {};  ///< that its source gives the label; none: by its name
 };
 
 /// Slab i of a snapshot as GLB, for viewers that show a surface while it grows. As write_glb(): +Y

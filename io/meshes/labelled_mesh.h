@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "mesh/mesh.h"
+#include "reconstruct/stack.h"
 
 namespace loft::io {
 
@@ -11,6 +13,7 @@ namespace loft::io {
 struct LabelledMesh {
   std::string label;
   Mesh mesh;
+  std::optional<Colour> colour = {};  ///< none: the file has none, or several
 
   friend bool operator==(const LabelledMesh&, const LabelledMesh&) = default;
 };

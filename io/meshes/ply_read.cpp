@@ -206,15 +206,36 @@ std::size_t find_property(const Element& element, std::string_view name, const V
   values.fail("element " + element.name + " has no property " + std::string(name));
 }
 
+/// Where a share of a colour goes; null: nowhere. Shares of 255, as all programs write them.
+std::uint8_t* share_of(Colour& colour, const Property& property) {
+  if (property.count || property.type != Type::uint8) return nullptr;
+  if (property.name == "red") return &colour.red;
+  if (property.name == "green") return &colour.green;
+  return property.name == "blue" ? &colour.blue : nullptr;
+}
+
+bool has_colour(const Element& element) {
+  Colour colour;
+  return std::ranges::count_if(element.properties, [&](const Property& property) {
+           return share_of(colour, property) != nullptr;
+         }) == 3;
+}
+
 template <class Values>
-void read_vertices(const Element& element, Values& values, Polygons& polygons) {
+void read_vertices(const Element& element, Values& values, Polygons& polygons,
+                   std::vector<Colour>& colours) {
+  const bool is_coloured = has_colour(element);
   const std::array places{find_property(element, "x", values), find_property(element, "y", values),
                           find_property(element, "z", values)};
   for (std::size_t i = 0; i < element.size; ++i) {
     Vec3 point{};
+    Colour colour;
     for (std::size_t k = 0; k < element.properties.size(); ++k) {
       const auto axis = std::ranges::find(places, k);
-      if (axis == places.end()) {
+      if (std::uint8_t* const share = share_of(colour, element.properties[k]); share != nullptr) {
+        const double value = values.next(Type::uint8);  // as text it may be anything
+        *share = value >= 0 && value <= 255 ? static_cast<std::uint8_t>(value) : std::uint8_t{0};
+      } else if (axis == places.end()) {
         skip(element.properties[k], values);
       } else {
         point[static_cast<std::size_t>(axis - places.begin())] =
@@ -222,6 +243,7 @@ void read_vertices(const Element& element, Values& values, Polygons& polygons) {
       }
     }
     polygons.mesh.points.push_back(point);
+    if (is_coloured) colours.push_back(colour);
   }
 }
 
@@ -264,11 +286,12 @@ void read_faces(const Element& element, Values& values, Polygons& polygons) {
 }
 
 template <class Values>
-void read_body(const Header& header, Values& values, Polygons& polygons) {
+void read_body(const Header& header, Values& values, Polygons& polygons,
+               std::vector<Colour>& colours) {
   for (const Element& element : header.elements) {
     if (element.properties.empty()) continue;  // nothing to read, however many there may be
     if (element.name == "vertex") {
-      read_vertices(element, values, polygons);
+      read_vertices(element, values, polygons, colours);
     } else if (element.name == "face") {
       read_faces(element, values, polygons);
     } else {
@@ -276,6 +299,15 @@ void read_body(const Header& header, Values& values, Polygons& polygons) {
         for (const Property& property : element.properties) skip(property, values);
       }
     }
+  }
+}
+
+/// Of each face, where its corners have the same one. Precondition: the indices are valid.
+void colour_faces(Polygons& polygons, std::span<const Colour> colours) {
+  if (colours.size() != polygons.mesh.points.size()) return;
+  for (const auto& [a, b, c] : polygons.mesh.faces) {
+    const bool is_one = colours[a] == colours[b] && colours[b] == colours[c];
+    polygons.colours.push_back(is_one ? std::optional(colours[a]) : std::nullopt);
   }
 }
 
@@ -392,13 +424,15 @@ std::vector<Slice> read_ply_contours(const std::string& content, std::string_vie
 }
 
 std::vector<LabelledMesh> read_ply(const std::string& content, std::string_view name) {
-  Polygons polygons = with_values(content, name, [](const Header& header, auto& values) {
+  std::vector<Colour> colours;  // of vertices
+  Polygons polygons = with_values(content, name, [&](const Header& header, auto& values) {
     Polygons read;
     read.labels = header.labels;
-    read_body(header, values, read);
+    read_body(header, values, read, colours);
     return read;
   });
   require_valid(polygons.mesh, name);
+  colour_faces(polygons, colours);
   return split(std::move(polygons));
 }
 

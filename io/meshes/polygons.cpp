@@ -51,6 +51,15 @@ Mesh extract(const Mesh& mesh, std::span<const std::size_t> faces) {
   return result;
 }
 
+/// What all of them have.
+std::optional<Colour> colour_of(std::span<const std::optional<Colour>> colours,
+                                std::span<const std::size_t> faces) {
+  if (colours.empty() || faces.empty()) return {};
+  const std::optional<Colour>& first = colours[faces.front()];
+  const auto has_it = [&](std::size_t face) { return colours[face] == first; };
+  return std::ranges::all_of(faces, has_it) ? first : std::nullopt;
+}
+
 }  // namespace
 
 std::vector<LabelledMesh> split(Polygons polygons) {
@@ -63,12 +72,14 @@ std::vector<LabelledMesh> split(Polygons polygons) {
   };
   std::vector<LabelledMesh> result;
   if (faces_of.size() <= 1) {
-    const std::uint32_t only = faces_of.empty() ? 0 : faces_of.begin()->first;
-    result.push_back({label(only), std::move(polygons.mesh)});
+    if (faces_of.empty()) faces_of[0] = {};
+    const auto& [number, faces] = *faces_of.begin();
+    result.push_back({label(number), std::move(polygons.mesh), colour_of(polygons.colours, faces)});
     return result;
   }
   for (const auto& [number, faces] : faces_of) {
-    result.push_back({label(number), extract(polygons.mesh, faces)});
+    result.push_back(
+        {label(number), extract(polygons.mesh, faces), colour_of(polygons.colours, faces)});
   }
   return result;
 }

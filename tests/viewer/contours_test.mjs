@@ -19,7 +19,8 @@ before(async () => {
   browser = await startBrowser();
   folder = await mkdtemp(join(tmpdir(), 'loft-contours-'));
   await writeFile(join(folder, 'box.ndjson'), [0, 2, 4, 6].map((z) => square(z, 5 - 0.5 * z)).join('\n'));
-  await run('reconstruct', join(folder, 'box.ndjson'), '-o', join(folder, 'box.ply'), '-q');
+  await run('reconstruct', join(folder, 'box.ndjson'), '-o', join(folder, 'box.ply'), '-o', join(folder, 'box.glb'),
+            '--with-contours', '-q');
 });
 after(async () => {
   await rm(folder, { recursive: true });
@@ -67,13 +68,14 @@ test('A stack is seen before there is a surface', async () => {
   await waitForInk(viewer, 500);
   assert.equal(await viewer.page.locator('#contours').isDisabled(), false);
   assert.equal(await viewer.page.locator('#downloads a').count(), 0);
+  assert.equal(await viewer.text('volume'), '–');
   assert.deepEqual(viewer.complaints, []);
   await viewer.close();
   await loft.end();
 });
 
-test('A PLY has its contours', async () => {
-  const loft = await Loft.start('view', join(folder, 'box.ply'), '--port', '0');
+for (const file of ['box.ply', 'box.glb']) test(`${file} has its contours`, async () => {
+  const loft = await Loft.start('view', join(folder, file), '--port', '0');
   const viewer = await Viewer.open(browser, loft.url);
   await viewer.page.waitForFunction(() => !document.getElementById('contours').disabled);
   assert.equal(await viewer.page.locator('#no-contours').isVisible(), false);

@@ -94,8 +94,13 @@ test('a cut at a slice is filled as its contours are, seen from either side', as
   assert.equal(await viewer.text('cut-text'), '0 mm');
   await press('b');
   const thin = await viewer.picture();
-  await press('3');
-  assert.ok(difference(thin, await viewer.picture()) > 100);
+  await viewer.page.locator('#along-z').click();
+  await viewer.settle();
+  const fromAbove = await viewer.picture();
+  assert.ok(difference(thin, fromAbove) > 100);
+  await viewer.page.locator('#along-x').click();
+  await viewer.settle();
+  assert.ok(difference(fromAbove, await viewer.picture()) > 100);
 });
 
 test('the cut goes where it is dragged, and turns', async () => {

@@ -131,6 +131,7 @@ export class Caps {
   #summing = new Map();  // by mesh
   #quad;
   #areDrawn = false;     // the caps of all closed labels can be
+  #tell;                 // what writes the codes of what is there now, as soon as they are needed
 
   constructor({ renderer, scene }) {
     this.#renderer = renderer;
@@ -157,10 +158,11 @@ export class Caps {
     if (!layout) return new Map([...labels.keys()].map((label) => [label, undefined]));
     for (const name of ['own', 'perChannel', 'bits'])
       this.#quad.material.uniforms[name].value = layout[name];
-    this.#paint(closed.map((label) => labels.get(label)[0]));
-    const codes = new Map(closed.map((label, i) =>
-      [label, codeOf(i, layout, Math.sign(volumes.get(label)))]));
-    this.#write(pieces, codes);
+    this.#tell = () => {
+      this.#paint(closed.map((label) => labels.get(label)[0]));
+      this.#write(pieces, new Map(closed.map((label, i) =>
+        [label, codeOf(i, layout, Math.sign(volumes.get(label)))])));
+    };
     return volumes;
   }
 
@@ -170,6 +172,8 @@ export class Caps {
     for (const mesh of this.#summing.keys()) mesh.perObjectFrustumCulled = true;
     this.#quad.visible = plane !== undefined && this.#areDrawn;
     if (!this.#quad.visible) return;
+    this.#tell?.();
+    this.#tell = undefined;
     this.#lay(plane, centre, size);
     this.#add(plane, camera);
   }

@@ -5,6 +5,9 @@ import { Measure } from './units.js';
 
 const quiet = 1000;  // ms without an edit until they are asked for again
 
+// Nothing stays nothing: contours alone have no volume.
+const measured = (value, measure) => (Number.isFinite(value) ? measure(value) : undefined);
+
 export class Figures extends EventTarget {
   #timer;
   #answer;  // a promise of the list, or undefined where the server has none
@@ -25,7 +28,7 @@ export class Figures extends EventTarget {
   }
 
   // { label, colour, is_skin, slices, volume, area, faces } of each label, volume and area in the
-  // measure; undefined where the server has none. Dispatches `known` with those of a new answer.
+  // measure, or undefined; undefined where the server has none. Dispatches `known` with those of a new answer.
   list() {
     this.#answer ??= this.#fetch();
     return this.#answer;
@@ -38,8 +41,8 @@ export class Figures extends EventTarget {
   async #fetch() {
     const { measure } = this;
     const answer = await ask('labels').catch(() => undefined);
-    const list = answer?.labels.map((figures) => ({ ...figures, volume: measure.volume(figures.volume),
-                                                    area: measure.area(figures.area) }));
+    const list = answer?.labels.map((figures) => ({ ...figures, volume: measured(figures.volume, (volume) => measure.volume(volume)),
+                                                    area: measured(figures.area, (area) => measure.area(area)) }));
     this.dispatchEvent(new CustomEvent('known', { detail: list }));
     return list;
   }

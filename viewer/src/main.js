@@ -140,6 +140,11 @@ function toggleParallel() {
 function connectPicture() {
   view.stage.onFrame(() => overlay.follow(view.stage, view.frame, view.unit));
   element('parallel').addEventListener('click', toggleParallel);
+  for (const axis of ['x', 'y', 'z'])
+    element(`along-${axis}`).addEventListener('click', ({ shiftKey }) => {
+      lookAlong(view.stage, axis, shiftKey);
+      view.stage.invalidate();
+    });
   element('picture').addEventListener('click', savePng);
 }
 

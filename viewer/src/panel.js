@@ -31,7 +31,7 @@ export class Panel {
     const texts = { ...counts, edits };
     for (const kind of ['slices', 'slabs', 'faces', 'vertices', 'edits'])
       show(kind, texts[kind] === undefined ? undefined : count(texts[kind]));
-    element('volume').textContent = `${number(volume)} ${unit}³`;
+    element('volume').textContent = Number.isFinite(volume) ? `${number(volume)} ${unit}³` : '–';
     show('latency', edits === undefined ? undefined : element('latency').textContent);
   }
 

@@ -18,8 +18,9 @@ using namespace testing;
 
 nlohmann::json without_seconds(const std::string& report) {
   auto json = nlohmann::json::parse(report);
-  for (const char* key : {"seconds", "outputs", "out_of_core"}) json.erase(key);
-  for (auto& part : json["parts"]) part.erase("seconds");
+  for (const char* key : {"seconds", "peak_memory_mb", "outputs", "out_of_core"}) json.erase(key);
+  for (auto& part : json["parts"])
+    for (const char* key : {"seconds", "peak_memory_mb"}) part.erase(key);
   return json;
 }
 

@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "io/meshes.h"
+#include "tests/app/running.h"
 #include "tests/app/streaming.h"
 
 namespace loft::app {
@@ -54,6 +56,44 @@ TEST(Stream, TheFirstLineOfAFileSaysUnitAndFill) {
   ASSERT_EQ(run(folder, "stream in.ndjson -o given.gltf --unit cm --fill evenodd").exit_code, 0);
   EXPECT_EQ(extras("given.gltf")["metres_per_unit"], 0.01);
   EXPECT_EQ(extras("given.gltf")["settings"]["fill"], "evenodd");
+}
+
+/// The colour of the first material of a GLB.
+std::vector<int> colour_in(const std::filesystem::path& glb) {
+  const auto colour = io::read_meshes(glb)[0].colour.value_or(Colour());
+  return {colour.red, colour.green, colour.blue};
+}
+
+TEST(Stream, HasTheColoursThatTheFirstLineSays) {
+  const Folder folder;
+  const std::string about =
+      R"({"stack": {"labels": [{"name": "heart", "colour": "#d02030", "kind": "ORGAN"}]}})"
+      "\n";
+  std::string lines;
+  for (int z = 0; z < 3; ++z)
+    lines += R"({"z": )" + std::to_string(z) +
+             R"(, "contours": [[[0, 0], [3, 0], [0, 3]]], "labels": ["heart"]})"
+             "\n";
+  static_cast<void>(folder.write("in.ndjson", about + lines));
+  ASSERT_EQ(run(folder, "stream in.ndjson -o out.glb -o out.ply --replay film.glb --session kept")
+                .exit_code,
+            0);
+  const std::vector<int> red{0xd0, 0x20, 0x30};
+  EXPECT_EQ(colour_in(folder / "out.glb"), red);
+  EXPECT_EQ(colour_in(folder / "out.ply"), red);
+  EXPECT_EQ(colour_in(folder / "film.glb"), red);
+  EXPECT_EQ(content(folder / "out.glb").find("\"settings\":{\"labels"), std::string::npos);
+
+  ASSERT_EQ(run(folder, "stream --no-input --session kept -o resumed.glb").exit_code, 0);
+  EXPECT_EQ(colour_in(folder / "resumed.glb"), red) << "the session remembers";
+  for (const char* file : {"kept", "out.glb", "out.ply"}) {
+    Running running(folder, {"view", file, "--port", "0"});
+    const json labels = json::parse(running.client()->Get("/labels")->body)["labels"];
+    EXPECT_EQ(labels[0]["colour"], "#d02030") << file;
+    std::ofstream(folder / "slab.glb", std::ios::binary)
+        << running.client()->Get("/slabs?ids=0-0..9")->body;
+    EXPECT_EQ(colour_in(folder / "slab.glb"), red) << file;
+  }
 }
 
 TEST(Stream, WhatItCannotTakeFromSuchALineIsSaid) {

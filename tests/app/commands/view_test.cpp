@@ -269,6 +269,7 @@ TEST(View, ShowsAStackBeforeThereIsASurface) {
   const json labels = json::parse(client->Get("/labels")->body)["labels"];
   ASSERT_EQ(labels.size(), 2U);
   EXPECT_EQ(labels[1]["slices"], 2);
+  EXPECT_TRUE(shown["volume"].is_null() && labels[1]["volume"].is_null()) << "nobody knows it";
   EXPECT_EQ(client->Get("/surface.glb")->status, 404);
   EXPECT_EQ(client->Get("/slabs?ids=0-0..9")->status, 404);
   EXPECT_EQ(client->Get("/history")->status, 404);

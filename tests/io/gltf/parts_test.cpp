@@ -9,8 +9,11 @@
 
 #include "io/bytes/hexadecimal.h"
 #include "io/gltf/gltf.h"
+#include "io/gltf/meshopt.h"
+#include "io/meshes.h"
 #include "io/meshes/label_colour.h"
 #include "io/meshes/skin.h"
+#include "io/surfaces.h"
 #include "tests/io/gltf/glb.h"
 #include "tests/io/shapes.h"
 
@@ -97,6 +100,44 @@ TEST(GltfParts, ContoursAreASecondNodeOfLines) {
   const tinygltf::Primitive& lines = model.meshes[1].primitives[0];
   EXPECT_EQ(lines.mode, TINYGLTF_MODE_LINE);
   EXPECT_EQ(model.accessors[static_cast<std::size_t>(lines.indices)].count, 18U);
+}
+
+/// What comes back of contours; `slant`: how far one of their points is above its slice.
+std::vector<Slice> contours_back(Compression compression, double slant = 0) {
+  const testing::Folder folder;
+  const Surface surface = prism(3);
+  Part heart{"heart", &surface};
+  heart.contours = {{0, {{0, 0, 0}, {1, 0, slant}, {0, 1, 0}}},
+                    {0, {{4, 0, 0}, {5, 0, 0}, {5, 1, 0}}},
+                    {2.5, {{0, 0, 2.5}, {1, 0, 2.5}, {0, 1, 2.5}, {-1, 0, 2.5}}}};
+  Part lung{"", &surface};
+  lung.contours = {{2.5, {{7, 7, 2.5}, {8, 7, 2.5}, {7, 8, 2.5}}}};
+  const std::vector<Part> parts{heart, lung};
+  write(folder / "a.glb", parts, {.metres_per_unit = 0.01, .compression = compression});
+  EXPECT_EQ(read_meshes(folder / "a.glb").size(), 2U) << "lines are no meshes";
+  return read_contours(folder / "a.glb");
+}
+
+TEST(GltfParts, ContoursComeBack) {
+  for (const Compression compression :
+       {Compression::none, Compression::quantize, Compression::meshopt}) {
+    if (compression == Compression::meshopt && !has_meshopt()) continue;
+    const std::vector<Slice> slices = contours_back(compression);
+    ASSERT_EQ(slices.size(), 2U);
+    EXPECT_EQ(slices[0].z, 0);
+    EXPECT_EQ(slices[1].z, 2.5);
+    ASSERT_EQ(slices[0].contours.size(), 2U);
+    EXPECT_EQ(slices[0].contours[1].points.size(), 3U);
+    EXPECT_NEAR(slices[0].contours[1].points[0].x, 4, 1e-3);
+    ASSERT_EQ(slices[1].contours.size(), 2U);
+    EXPECT_EQ(slices[1].contours[0].label, "heart");
+    EXPECT_EQ(slices[1].contours[0].points.size(), 4U);
+    EXPECT_EQ(slices[1].contours[1].label, "");
+  }
+}
+
+TEST(GltfParts, ContoursThatAreNotLevelAreNoSlices) {
+  EXPECT_TRUE(contours_back(Compression::none, 0.2).empty());
 }
 
 TEST(Skin, IsToldByItsKindElseByAName) {

@@ -10,6 +10,7 @@
 
 #include "io/bytes/file.h"
 #include "io/bytes/little_endian.h"
+#include "io/meshes/label_colour.h"
 #include "io/surfaces.h"
 #include "reconstruct/defect.h"
 #include "tests/io/shapes.h"
@@ -89,6 +90,39 @@ TEST(Meshes, LabelsSplitTheMeshWhereTheFormatKeepsThem) {
     }
     EXPECT_EQ(read_mesh(path).faces.size(), one.n_faces() + two.n_faces()) << extension;
   }
+}
+
+TEST(Meshes, HaveTheColoursOfTheirLabels) {
+  const Folder folder;
+  const Surface one = prism(3);
+  const Surface two = prism(5, {1, 0, 0});
+  const Colour red{0xd0, 0x20, 0x30};
+  const std::vector<Part> parts{{"heart", &one, red}, {"lung", &two}};
+  for (const char* name : {"a.ply", "a.glb", "a.gltf"}) {
+    write(folder / name, parts);
+    const std::vector<LabelledMesh> meshes = read_meshes(folder / name);
+    ASSERT_EQ(meshes.size(), 2U) << name;
+    EXPECT_EQ(meshes[0].colour, red) << name;
+    EXPECT_EQ(meshes[1].colour, colour_of(parts[1])) << name;
+  }
+  write(folder / "a.off", parts);
+  EXPECT_EQ(read_meshes(folder / "a.off")[0].colour, std::nullopt);
+}
+
+TEST(Meshes, SeveralColoursOfOneMeshAreNone) {
+  const Folder folder;
+  const auto ply = [&](const char* last) {
+    return folder.write("a.ply",
+                        "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                        "property float y\nproperty float z\nproperty uchar red\n"
+                        "property uchar green\nproperty uchar blue\nelement face 1\n"
+                        "property list uchar int vertex_indices\nend_header\n"
+                        "0 0 0 9 8 7\n1 0 0 9 8 7\n0 1 0 " +
+                            std::string(last) + "\n3 0 1 2\n");
+  };
+  EXPECT_EQ(read_meshes(ply("9 8 7"))[0].colour, (Colour{9, 8, 7}));
+  EXPECT_EQ(read_meshes(ply("9 8 6"))[0].colour, std::nullopt);
+  EXPECT_EQ(read_meshes(ply("1e9 -8 nan"))[0].colour, std::nullopt);
 }
 
 TEST(Meshes, ReadsAsciiPlyWithOtherElementsAndProperties) {
