@@ -53,6 +53,8 @@ app-live      app/live/*                     server
 commands      app/commands/*                 app-live
 options       app/options/*                  commands
 app           app/main                       options
+
+python        python/binding/*               io
 '
 
 # All #include lines of a folder, as file:line:#include "header", without blanks.
@@ -124,7 +126,7 @@ arrows() {
 }
 
 offenders=$(
-  layers='cdt overlay paths fields mesh reconstruct io app'
+  layers='cdt overlay paths fields mesh reconstruct io app python/binding'
   { find $layers -name '*.h' -o -name '*.hpp' -o -name '*.cpp' -o -name '*.cc'; includes $layers | grep '#include"'; } | arrows
 
   # The world outside: standard headers (neither slash nor dot in their names), and what a layer is
@@ -134,13 +136,14 @@ offenders=$(
   allow reconstruct 'OpenMesh/.*|tbb/.*|Eigen/.*'
   allow io "$posix|tiny_gltf\.h|sqlite3\.h|dcmtk/.*|zlib\.h|zip\.h|meshoptimizer\.h|csv\.h|tiffio\.h|png\.h"
   allow app "$posix|fnmatch\.h|CLI/.*|httplib\.h|nlohmann/.*"
+  allow python/binding 'pybind11/.*|Python\.h|pthread\.h'
   forbid 'cdt overlay paths fields mesh' '(fstream|filesystem|iostream|chrono|thread|mutex|condition_variable|cstdio)>'
   forbid reconstruct '(fstream|filesystem|iostream|chrono)>'
   forbid io 'chrono>'
 
   # Our own headers are named from the root of the project, so that their layer can be seen.
   includes $layers tests samples bench |
-    grep '#include"' | grep -vE '#include"(cdt|overlay|paths|fields|mesh|reconstruct|io|app|samples|tests|bench)/'
+    grep '#include"' | grep -vE '#include"(cdt|overlay|paths|fields|mesh|reconstruct|io|app|python|samples|tests|bench)/'
 )
 if [ -n "$offenders" ]; then
   echo "These lines include what their wing must not know (the table is in tests/layers.sh):"

@@ -12,7 +12,13 @@ if [ ! tests/io/node_modules/.package-lock.json -nt tests/io/package-lock.json ]
   npm ci --prefix tests/io --no-audit --no-fund
 fi
 
-cmake --preset "$preset" -DLOFT_TESTS=ON
+# The interpreter whose packages were just installed, whatever others there are.
+python=/usr/bin/python3
+[ -x "$python" ] || python=$(command -v python3)
+# ThreadSanitizer cannot be loaded into a program that was built without it.
+[ "$preset" = tsan ] && with_python=OFF || with_python=ON
+
+cmake --preset "$preset" -DLOFT_TESTS=ON -DLOFT_PYTHON="$with_python" -DPython_EXECUTABLE="$python"
 cmake --build --preset "$preset" -j "$(nproc)"
 
 results=build/$preset/tests.xml

@@ -63,7 +63,7 @@ endif()
 # The reference of the public headers is made without a warning.
 if(TARGET docs)
   add_test(NAME style.docs COMMAND ${CMAKE_COMMAND} --build ${build} --target docs)
-  set_tests_properties(style.docs PROPERTIES LABELS style)
+  set_tests_properties(style.docs PROPERTIES LABELS style RESOURCE_LOCK build_folder)
 endif()
 
 # The generated stacks in samples/data are what make_stacks makes.

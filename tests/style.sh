@@ -15,6 +15,15 @@ ours() {
 }
 libraries="cdt overlay paths fields mesh reconstruct io"
 
+# The binding of the Python module, where BUILD has it, and with which options.
+binding=
+with_python=
+if [ -n "${2:-}" ] && grep -q '^LOFT_PYTHON:BOOL=ON' "$2/CMakeCache.txt" 2> /dev/null; then
+  binding=python/binding
+  interpreter=$(sed -n 's/^Python_EXECUTABLE:[A-Z]*=//p' "$2/CMakeCache.txt")
+  with_python="-DLOFT_PYTHON=ON -DPython_EXECUTABLE=${interpreter:-/usr/bin/python3}"
+fi
+
 # The files that are compiled, in the order of a build: sources, and folders of them joined.
 compiled() {
   sed -n 's/^ *"file": "\(.*\)",*$/\1/p' "$1/compile_commands.json"
@@ -23,12 +32,12 @@ compiled() {
 # Our sources that no folder joins.
 single() {
   compiled "$1" | grep '/Unity/' | xargs sed -n 's/^#include "\(.*\)"$/\1/p' > "$1/joined.txt"
-  ours '*.cpp' $libraries app samples | sed "s|^|$PWD/|" | grep -vxFf "$1/joined.txt"
+  ours '*.cpp' $libraries app samples $binding | sed "s|^|$PWD/|" | grep -vxFf "$1/joined.txt"
 }
 
 # A header that is what its source includes first is compiled by itself with that.
 untried_headers() {
-  for header in $(ours '*.h' $libraries app samples); do
+  for header in $(ours '*.h' $libraries app samples $binding); do
     source=${header%.h}.cpp
     [ -f "$source" ] && grep -m 1 '^#include' "$source" | grep -qF "\"$header\"" || echo "$header"
   done
@@ -39,7 +48,7 @@ standard_module() {
   folder=$(echo '#include <vector>' | clang++-16 -x c++ -M - | grep -m 1 -o '[^ ]*/vector')
   folder=${folder%/vector}
   echo 'module standard [system] {'
-  grep -rhoE --include='*.h' --include='*.cpp' --exclude-dir=node_modules '^#include <[a-z_]+>' $libraries app samples |
+  grep -rhoE --include='*.h' --include='*.cpp' --exclude-dir=node_modules '^#include <[a-z_]+>' $libraries app samples $binding |
     sort -u | sed 's/.*<\(.*\)>/\1/' | grep -vx cassert | while read -r header; do
       [ ! -f "$folder/$header" ] || echo "  module _$header { header \"$folder/$header\" export * }"
     done
@@ -48,23 +57,25 @@ standard_module() {
 
 case ${1:-} in
   format)
-    { ours '*.h' $libraries app tests samples bench
-      ours '*.cpp' $libraries app tests samples bench; } |
+    { ours '*.h' $libraries app tests samples bench python
+      ours '*.cpp' $libraries app tests samples bench python; } |
       xargs clang-format --dry-run -Werror
     ;;
   tidy)
     # Folders are joined as they are for building, so that headers are read once a folder.
     # What the flags of a build warn of is that build's concern.
-    cmake -S . -B "$2/tidy" -G Ninja -DLOFT_UNITY=ON -DLOFT_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON > "$2/tidy.txt" ||
+    cmake -S . -B "$2/tidy" -G Ninja -DLOFT_UNITY=ON -DLOFT_TESTS=OFF -DCMAKE_EXPORT_COMPILE_COMMANDS=ON $with_python > "$2/tidy.txt" ||
       { cat "$2/tidy.txt"; exit 1; }
     { compiled "$2/tidy" | grep '/Unity/'; single "$2/tidy"; } |
       xargs -n 1 -P "$(nproc)" clang-tidy-16 --quiet --extra-arg=-w -p "$2/tidy"
     ;;
   alone)
     mkdir -p "$2/alone"
+    includes=
+    [ -z "$binding" ] || includes="-isystem $("${interpreter:-/usr/bin/python3}" -c "import sysconfig; print(sysconfig.get_path('include'))")"
     standard_module > "$2/alone/modules.txt"
-    { ours '*.cpp' $libraries app samples; untried_headers; } |
-      xargs -n 4 -P "$(nproc)" clang++-16 -std=c++20 -DNDEBUG -fsyntax-only -w -I. $(pkg-config --cflags eigen3 cpp-httplib) \
+    { ours '*.cpp' $libraries app samples $binding; untried_headers; } |
+      xargs -n 4 -P "$(nproc)" clang++-16 -std=c++20 -DNDEBUG -fsyntax-only -w -I. $(pkg-config --cflags eigen3 cpp-httplib) $includes \
         -fmodules -fmodule-map-file="$2/alone/modules.txt" -fmodules-cache-path="$2/alone"
     ;;
   *)
