@@ -13,6 +13,7 @@ import threading
 import time
 import unittest
 from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
 from unittest import mock
 
 import numpy as np
@@ -86,7 +87,7 @@ class ASurface(unittest.TestCase):
             with tempfile.TemporaryDirectory() as folder:
                 made.write(f"{folder}/a.ply")
                 again.write(f"{folder}/b.ply")
-                self.assertEqual(*(open(f"{folder}/{x}.ply", "rb").read() for x in "ab"))
+                self.assertEqual(*(Path(folder, f"{x}.ply").read_bytes() for x in "ab"))
 
     def test_goes_into_other_libraries(self):
         surface = loft.reconstruct([(0, [SQUARE]), (1, [SQUARE])]).surface
