@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <map>
+#include <set>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -38,6 +40,11 @@ void ensure_text(const path& file, const std::string& text) {
   std::error_code ignored;
   if (std::filesystem::is_regular_file(file, ignored) && read_file(file) == text) return;
   write_text(file, text);
+}
+
+/// Whether an `info` says that its folder is one of meshes.
+bool is_of_meshes(const path& info) {
+  return read_file(info).find("neuroglancer_legacy_mesh") != std::string::npos;
 }
 
 /// A JSON file that is looked into.
@@ -120,6 +127,8 @@ std::vector<std::uint64_t> segments_in(const path& folder) {
 }
 
 void append(Mesh& mesh, const Mesh& more) {
+  if (mesh.points.size() + more.points.size() > std::numeric_limits<std::uint32_t>::max())
+    throw InputError("a segment's fragments have more vertices than can be numbered");
   const auto first = static_cast<std::uint32_t>(mesh.points.size());
   mesh.points.insert(mesh.points.end(), more.points.begin(), more.points.end());
   for (const auto& [a, b, c] : more.faces) mesh.faces.push_back({first + a, first + b, first + c});
@@ -128,8 +137,11 @@ void append(Mesh& mesh, const Mesh& more) {
 Mesh read_segment(const path& folder, std::uint64_t id) {
   const path file = folder / neuroglancer::manifest_name(id);
   Mesh mesh;
+  std::set<std::string> seen;
   for (const std::string& name :
        JsonFile(file).strings(std::array<std::string_view, 1>{"fragments"})) {
+    if (!seen.insert(name).second)
+      throw InputError(file.string() + ": it names the fragment " + name + " twice");
     if (path(name).filename() != name)
       throw InputError(file.string() + ": a fragment outside of its folder");
     append(mesh, read_fragment(read_file(folder / name), (folder / name).string()));
@@ -156,7 +168,25 @@ std::uint64_t Precomputed::id_of(const std::string& label) const {
   return std::ranges::lower_bound(segments_, label, {}, &Segment::label)->id;
 }
 
+void Precomputed::require_own() const {
+  std::error_code ignored;
+  const path info = folder_ / "info";
+  if (std::filesystem::is_regular_file(info, ignored) && !is_of_meshes(info))
+    throw FileError(Access::write, info,
+                    "it describes something else than meshes of Neuroglancer; take another folder");
+  std::map<std::string, std::string> ours;
+  for (const Segment& segment : segments_) ours[std::to_string(segment.id)] = segment.label;
+  for (const auto& [id, name] : segment_names(folder_)) {
+    const auto found = ours.find(id);
+    if (found == ours.end() || found->second != name)
+      throw FileError(Access::write, folder_,
+                      "it has the meshes of another stack: segment " + id + " is '" + name +
+                          "' there; take another folder, or remove it");
+  }
+}
+
 void Precomputed::begin() const {
+  require_own();
   const path names = folder_ / neuroglancer::properties_folder;
   make_folder(names);
   ensure_text(names / "info", neuroglancer::properties(segments_));

@@ -32,7 +32,7 @@ class Precomputed {
   Precomputed(std::filesystem::path folder, std::vector<Segment> segments);
 
   /// Makes the folder where there is none, and `info` and the names where they are not so already.
-  /// Throws FileError.
+  /// Throws FileError; also where the folder is another thing, or has the meshes of another stack.
   void begin() const;
   /// Whether a label's mesh is there, and so whole.
   [[nodiscard]] bool has(const std::string& label) const;
@@ -42,6 +42,7 @@ class Precomputed {
   Written write(const Part& part, double metres_per_unit) const;
 
  private:
+  void require_own() const;
   [[nodiscard]] std::uint64_t id_of(const std::string& label) const;
 
   std::filesystem::path folder_;

@@ -54,7 +54,7 @@ chmod +x "$folder/bin/scontrol"
 PATH=$folder/bin:$PATH
 array() {
   STACK=$stack FOLDER=$folder/slurm SLURM_ARRAY_JOB_ID=7 SLURM_ARRAY_TASK_ID=$1 \
-    SLURM_ARRAY_TASK_COUNT=3 SLURM_CPUS_PER_TASK=1 exec bash "$jobs/slurm_array.sh"
+    SHARDS=3 SLURM_CPUS_PER_TASK=1 exec bash "$jobs/slurm_array.sh"
 }
 for task in 0 1 2; do
   (array $task) 2> "$folder/words" &

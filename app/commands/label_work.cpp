@@ -30,7 +30,7 @@ std::vector<std::string> choose(const ReconstructCommand& command,
 LabelWork::LabelWork(const ReconstructCommand& command, std::vector<LabelSize> labels,
                      std::span<const StackLabel> known)
     : chosen_(choose(command, labels)), outputs_(command, chosen_, names_of(labels), known) {
-  is_labelled_ = chosen_.size() > 1 || !chosen_[0].empty();
+  is_labelled_ = labels.size() > 1 || !chosen_[0].empty();
   const std::set<std::string> hidden = hidden_labels(command, chosen_);
   hidden_.assign(hidden.begin(), hidden.end());
   std::erase_if(labels, [this](const LabelSize& label) {

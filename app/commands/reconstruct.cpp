@@ -229,7 +229,8 @@ const char* how(const path& output) {
   return is_per_label(output) ? ", a file a label" : "";
 }
 
-void say_summary(const ReconstructCommand& command, const Report& report, Terminal& terminal) {
+void say_summary(const ReconstructCommand& command, const Report& report,
+                 const std::vector<path>& left, Terminal& terminal) {
   if (!report.range.empty())
     terminal.say("the slabs " + report.range + ", open to those beside them; see loft join");
   if (report.parts.size() > 1 && report.range.empty())
@@ -247,7 +248,10 @@ void say_summary(const ReconstructCommand& command, const Report& report, Termin
     terminal.say("nothing to do");
     return;
   }
-  for (const path& output : command.outputs) terminal.say("wrote " + output.string() + how(output));
+  for (const path& output : command.outputs)
+    terminal.say(std::ranges::count(left, output) > 0
+                     ? output.string() + " is left as it is: it exists"
+                     : "wrote " + output.string() + how(output));
 }
 
 /// Contours of a stack that are bent without being made fair.
@@ -317,6 +321,7 @@ ExitCode run(const ReconstructCommand& given) {
   catch_interrupts();
   check_outputs(command);
   report.is_out_of_core = is_out_of_core(command);
+  const std::vector<path> left = outputs_left(command);
   work(command, terminal, report);
   report.peak_memory = std::max(report.peak_memory, memory.in_all());
   report.seconds["total"] = total.lap();
@@ -325,7 +330,7 @@ ExitCode run(const ReconstructCommand& given) {
     terminal.warn(label.message + "; nothing was made of it");
   for (const PartReport& part : report.parts) warn(command, part, terminal);
   if (command.volumes) write_volumes_csv(*command.volumes, report.parts, command.unit);
-  say_summary(command, report, terminal);
+  say_summary(command, report, left, terminal);
   if (command.json) std::cout << to_json(report, command) << '\n';
   return command.strict && !report.skipped.empty() ? ExitCode::bad_input : ExitCode::ok;
 }

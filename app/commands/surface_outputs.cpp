@@ -58,22 +58,46 @@ void tell_rounding(const ReconstructCommand& command, const path& output,
   terminal.say(words);
 }
 
-void forbid_placeholder(const path& folder) {
+void check_folder(const path& folder) {
+  if (folder.empty()) throw UsageError("precomputed://: a folder is wanted behind it");
   if (is_per_label(folder))
     throw UsageError(folder.string() +
                      ": a folder of meshes has all labels; leave {label} out of its name");
+}
+
+/// Each job would replace what the others have made.
+void forbid_shares(const ReconstructCommand& command) {
+  if (!command.shard.is_all())
+    for (const path& output : command.outputs)
+      if (is_of_all(output))
+        throw UsageError(output.string() +
+                         ": --shard makes some of the labels, and each job would replace the file "
+                         "of the others; put {label} in its name, or write precomputed://FOLDER");
+  if (command.volumes && (!command.shard.is_all() || command.skip_existing))
+    throw UsageError(
+        command.volumes->string() +
+        ": a job that makes some of the labels only would replace the table by theirs; "
+        "leave out --csv and take the reports of --json");
 }
 
 }  // namespace
 
 void check_outputs(const ReconstructCommand& command) {
   check_gltf_options(command);
+  forbid_shares(command);
   forbid_overwriting(command.inputs, command.outputs);
   if (command.links) forbid_overwriting(std::array{*command.links}, command.outputs);
   for (const path& output : command.outputs) {
-    if (const auto folder = io::precomputed_folder(output)) forbid_placeholder(*folder);
+    if (const auto folder = io::precomputed_folder(output)) check_folder(*folder);
     if (is_of_all(output)) io::check_writable(output);
   }
+}
+
+std::vector<path> outputs_left(const ReconstructCommand& command) {
+  std::vector<path> left;
+  for (const path& output : command.outputs)
+    if (command.skip_existing && is_of_all(output) && is_there(output)) left.push_back(output);
+  return left;
 }
 
 bool are_per_label(const ReconstructCommand& command) {
@@ -81,7 +105,13 @@ bool are_per_label(const ReconstructCommand& command) {
 }
 
 bool is_all_there(const ReconstructCommand& command) {
-  if (!command.skip_existing) return false;
+  if (!command.skip_existing || !command.shard.is_all()) return false;
+  // What is not there is found out by reading it.
+  const auto exists = [](const path& input) {
+    std::error_code ignored;
+    return std::filesystem::exists(input, ignored);
+  };
+  if (!std::ranges::all_of(command.inputs, exists)) return false;
   const bool are_named =
       !command.only.empty() && command.except.empty() &&
       std::ranges::none_of(command.only, [](const std::string& label) {

@@ -18,6 +18,9 @@ namespace loft::app {
 /// Finds out early what would make the work useless, as far as that is known before the stack is.
 void check_outputs(const ReconstructCommand& command);
 
+/// Outputs for all labels that --skip-existing leaves as they are.
+[[nodiscard]] std::vector<std::filesystem::path> outputs_left(const ReconstructCommand& command);
+
 /// Whether each output has a file of its own for each label, so that a label can be written, and
 /// forgotten, as soon as it is made.
 [[nodiscard]] bool are_per_label(const ReconstructCommand& command);

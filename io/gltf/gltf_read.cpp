@@ -125,7 +125,7 @@ class FlatSlices {
     std::vector<Slice> result;
     for (const auto& [height, slice] : slices_) {
       const double z = (slice.box.low[2] + slice.box.high[2]) / 2;
-      if (slice.box.high[2] - slice.box.low[2] > tolerance) return {};
+      if (!(slice.box.high[2] - slice.box.low[2] <= tolerance)) return {};
       result.push_back({std::abs(z - height) <= tolerance ? height : z, slice.contours});
     }
     std::ranges::stable_sort(result, {}, &Slice::z);
@@ -280,7 +280,10 @@ class Reader {
       FlatSlice& flat = contours_.at(heights[slice]);
       Contour& contour = flat.contours.emplace_back(Contour{{}, label});
       for (bool is_open = true; is_open && i + 1 < ends.size(); i += 2) {
-        flat.add(place_of(positions, ends[i], map), contour);
+        const Vec3 place = place_of(positions, ends[i], map);
+        if (!std::ranges::all_of(place, [](double c) { return std::isfinite(c); }))
+          fail("POSITION of lines has what is no number");
+        flat.add(place, contour);
         is_open = ends[i + 1] != first;
       }
     }

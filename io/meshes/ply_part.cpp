@@ -52,6 +52,7 @@ PartTotals total_of(const std::vector<PartSizes>& surfaces) {
   PartTotals totals;
   for (const PartSizes& sizes : surfaces) {
     if (!totals.is_possible()) break;
+    if (sizes.faces >= most_in_part) totals.faces = most_in_part;
     totals.vertices += vertex_count(sizes);
     totals.faces += std::min(most_in_part, face_count(sizes));
     totals.seam_faces += seam_face_count(sizes);

@@ -13,6 +13,12 @@ namespace loft::python {
 
 namespace {
 
+/// File names need not be UTF-8.
+py::str text(const std::string& bytes) {
+  return py::reinterpret_steal<py::str>(PyUnicode_DecodeUTF8(
+      bytes.data(), static_cast<py::ssize_t>(bytes.size()), "surrogateescape"));
+}
+
 template <class... Values>
 void raise(const char* type, const Values&... values) {
   const py::object error = py::module_::import("loft.errors").attr(type);
@@ -23,17 +29,17 @@ void translate(std::exception_ptr pointer) {
   try {
     if (pointer) std::rethrow_exception(pointer);
   } catch (const InputError& error) {
-    raise("InputError", error.what(), defect_list(error.defects()));
+    raise("InputError", text(error.what()), defect_list(error.defects()));
   } catch (const io::FileError& error) {
-    raise("FileError", error.what(), error.path().string());
+    raise("FileError", text(error.what()), text(error.path().string()));
   } catch (const io::UnknownFormat& error) {
-    raise("InputError", error.what());
+    raise("InputError", text(error.what()));
   } catch (const Cancelled& error) {
-    raise("Cancelled", error.what());
+    raise("Cancelled", text(error.what()));
   } catch (const Error& error) {
-    raise("Error", error.what());
+    raise("Error", text(error.what()));
   } catch (const std::invalid_argument& error) {
-    raise("InputError", error.what());
+    raise("InputError", text(error.what()));
   } catch (const std::length_error& error) {
     PyErr_SetString(PyExc_MemoryError, error.what());
   }

@@ -3,9 +3,13 @@
 
 #include <pybind11/pybind11.h>
 
+#include <atomic>
 #include <chrono>
 #include <mutex>
 #include <utility>
+
+#include "python/binding/job.h"
+#include "reconstruct/defect.h"
 
 namespace loft::python {
 
@@ -28,8 +32,13 @@ class InTurn {
       {
         const py::gil_scoped_release unlocked;
         const std::unique_lock lock(mutex_, std::chrono::milliseconds(50));
-        if (lock.owns_lock()) return work(value_);
+        if (lock.owns_lock()) {
+          forks_ = fork_count();
+          return work(value_);
+        }
       }
+      if (forks_ != fork_count())
+        throw Error("it was being changed by another thread when this process was forked");
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
     }
   }
@@ -38,11 +47,13 @@ class InTurn {
   template <class Work>
   auto use_in_job(Work work) {
     const std::lock_guard lock(mutex_);
+    forks_ = fork_count();
     return work(value_);
   }
 
  private:
   std::timed_mutex mutex_;
+  std::atomic<unsigned> forks_ = fork_count();  ///< when it was used last
   Value value_;
 };
 

@@ -4,6 +4,9 @@
 #include <pthread.h>
 
 #include <atomic>
+#include <string>
+#include <system_error>
+#include <vector>
 
 #include "reconstruct/defect.h"
 #include "reconstruct/parallel.h"
@@ -20,11 +23,38 @@ constexpr auto time_between_news = 100ms;
 
 std::atomic<bool> has_begun_threads = false;
 std::atomic<bool> is_fork_of_threads = false;
-std::atomic<int> abandoned_count = 0;
+std::atomic<unsigned> forks = 0;
+
+/// The jobs of this process that go on.
+class Jobs {
+ public:
+  void add(const std::shared_ptr<Job>& job) {
+    const std::lock_guard lock(mutex_);
+    jobs_.push_back(job);
+  }
+  void remove(const std::shared_ptr<Job>& job) {
+    const std::lock_guard lock(mutex_);
+    std::erase(jobs_, job);
+  }
+  /// Whether there are none; tells those there are to stop.
+  bool stop_all() {
+    const std::lock_guard lock(mutex_);
+    for (const std::shared_ptr<Job>& job : jobs_) job->stop();
+    return jobs_.empty();
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::shared_ptr<Job>> jobs_;
+};
+
+/// Never destroyed: threads may outlive what the end of a program destroys.
+std::atomic<Jobs*> jobs = new Jobs;
 
 extern "C" void note_fork() {
   is_fork_of_threads = is_fork_of_threads || has_begun_threads;
-  abandoned_count = 0;
+  ++forks;
+  jobs = new Jobs;  // the threads of the others, and who holds their lock, are not here
 }
 
 }  // namespace
@@ -34,6 +64,8 @@ Kept::Kept(py::object object)
         const py::gil_scoped_acquire lock;
         delete kept;
       }) {}
+
+unsigned fork_count() { return forks; }
 
 unsigned usable_threads(unsigned wanted) {
   if (is_fork_of_threads) {
@@ -109,8 +141,8 @@ void Job::wait(const py::object& progress) {
 
 void run(const py::object& progress, std::function<void(Job&)> work) {
   auto job = std::make_shared<Job>();
-  ++abandoned_count;
-  std::thread([job, work = std::move(work)]() mutable {
+  jobs.load()->add(job);
+  const auto body = [job, work = std::move(work)]() mutable {
     std::exception_ptr failure;
     try {
       work(*job);
@@ -118,14 +150,20 @@ void run(const py::object& progress, std::function<void(Job&)> work) {
       failure = std::current_exception();
     }
     work = {};
-    --abandoned_count;
+    jobs.load()->remove(job);
     job->finish(std::move(failure));
-  }).detach();
+  };
+  try {
+    std::thread(body).detach();
+  } catch (const std::system_error& error) {
+    jobs.load()->remove(job);
+    throw Error(std::string("no thread can be begun: ") + error.what());
+  }
   job->wait(progress);
 }
 
 void wait_for_abandoned() {
-  while (abandoned_count > 0) {
+  while (!jobs.load()->stop_all()) {
     {
       const py::gil_scoped_release unlocked;
       std::this_thread::sleep_for(10ms);

@@ -34,6 +34,9 @@ class Kept {
 /// wanted then.
 [[nodiscard]] unsigned usable_threads(unsigned wanted);
 
+/// How many forks there are between the first process and this one.
+[[nodiscard]] unsigned fork_count();
+
 /// What Python is told of work that goes on: how far it is, and how it ends.
 class Job {
  public:
@@ -46,6 +49,9 @@ class Job {
   /// worker has been told to stop. With the interpreter's lock.
   void wait(const py::object& progress);
 
+  /// From now on report() says so.
+  void stop();
+
  private:
   struct State {
     Stage stage = Stage::clean;
@@ -55,7 +61,6 @@ class Job {
   [[nodiscard]] bool is_finished_within(std::chrono::milliseconds time);
   [[nodiscard]] std::optional<State> news();
   void tell(const py::object& progress);
-  void stop();
 
   std::mutex mutex_;
   std::condition_variable finished_;
@@ -81,7 +86,8 @@ auto result_of(const py::object& progress, Work work) {
   return std::move(**result);
 }
 
-/// Waits for work that Ctrl-C has left behind: to be called before the interpreter ends.
+/// Stops all work, what Ctrl-C has left behind and that of daemon threads, and waits for it: to be
+/// called before the interpreter ends.
 void wait_for_abandoned();
 
 /// Tells a child process that threads of its parent are not there.

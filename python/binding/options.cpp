@@ -102,7 +102,8 @@ class Named {
 
  private:
   [[nodiscard]] static std::string shown(const py::handle& value) {
-    return py::cast<std::string>(py::repr(value)).substr(0, 80);
+    const py::object start = py::repr(value)[py::slice(0, 80, 1)];
+    return py::cast<std::string>(start.attr("encode")("utf-8", "backslashreplace"));
   }
 
   py::dict left_;

@@ -47,7 +47,8 @@ class Work {
   All run(Job& job) {
     if (options_.fair) make_fair();
     const ContoursByLabel contours(stack_->slices);
-    const bool is_labelled = labels_.size() > 1 || (!labels_.empty() && !labels_[0].empty());
+    const bool is_labelled =
+        contours.labels().size() > 1 || (!labels_.empty() && !labels_[0].empty());
     if (labels_.empty()) labels_.emplace_back();
     for (std::size_t i = 0; i < labels_.size(); ++i) {
       if (is_labelled) options_.label = labels_[i];

@@ -127,6 +127,13 @@ StackPointer only_with(const Stack& stack, const std::vector<std::string>& names
   return chosen;
 }
 
+/// A copy: others may be reading it.
+StackPointer with_unit(const Stack& stack, const std::string& unit) {
+  auto changed = std::make_shared<Stack>(stack);
+  changed->unit = unit;
+  return changed;
+}
+
 py::object to_colour(const std::optional<Colour>& colour) {
   if (!colour) return py::none();
   return py::make_tuple(colour->red, colour->green, colour->blue);
@@ -234,7 +241,8 @@ std::vector<std::string> write_to(const StackPointer& stack, const std::string& 
 
 void add_stack(py::module_& module) {
   py::class_<Stack, StackPointer>(module, "Stack")
-      .def_readwrite("unit", &Stack::unit)
+      .def_readonly("unit", &Stack::unit)
+      .def("with_unit", &with_unit)
       .def_readonly("notes", &Stack::notes)
       .def("labels", [](const Stack& stack) { return labels(stack.slices); })
       .def("slice_count", [](const Stack& stack) { return stack.slices.size(); })

@@ -140,9 +140,14 @@ class Rebuild {
 
   void close_rims() {
     std::vector<Handle> rims;
+    std::vector<bool> has_rim(surface_->n_vertices());
     for (const auto& [ends, number] : handles_) {
       const Handle opposite(number ^ 1);
       if (surface_->face_handle(opposite).is_valid()) continue;
+      const auto from = static_cast<std::size_t>(surface_->from_vertex_handle(opposite).idx());
+      if (has_rim[from])
+        throw InputError("vertex " + std::to_string(from) + ": faces meet in it alone");
+      has_rim[from] = true;
       surface_->set_boundary(opposite);
       surface_->set_halfedge_handle(surface_->from_vertex_handle(opposite), opposite);
       rims.push_back(opposite);

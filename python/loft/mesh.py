@@ -106,8 +106,13 @@ def _is_path(mesh: Any) -> bool:
 def read_meshes(path: Any) -> Dict[str, Arrays]:
     """The meshes in a file, by label: vertices (n, 3) and faces (m, 3). Raises FileError and
     InputError."""
-    return {label: (vertices, faces)
-            for label, vertices, faces in _loft.read_meshes(os.fspath(path))}
+    meshes: Dict[str, Arrays] = {}
+    for label, vertices, faces in _loft.read_meshes(os.fsencode(path)):
+        name, copy = label, 2
+        while name in meshes:
+            name, copy = f"{label} ({copy})", copy + 1
+        meshes[name] = (vertices, faces)
+    return meshes
 
 
 def check(mesh: Any) -> Check:

@@ -81,8 +81,7 @@ class Reconstructed(Mapping[str, Surface]):
         `loft reconstruct --help` says. The bytes are those that the program writes. Raises
         FileError and InputError.
         """
-        hidden = matching(list(self), hide, None) if hide else []
-        return _surface.write(self, path, unit=unit or self.unit, compress=compress, hide=hidden,
+        return _surface.write(self, path, unit=unit or self.unit, compress=compress, hide=hide,
                               contours_of=self.stack if with_contours else None,
                               sources=self.stack._sources, settings=self.settings)
 

@@ -71,6 +71,12 @@ def _by_label(given: Any) -> Iterable[Tuple[str, Any]]:
     return [("", given)]
 
 
+def _height(z: Any) -> float:
+    if isinstance(z, (complex, np.complexfloating)):
+        raise TypeError("it is complex")
+    return float(z)
+
+
 class _Builder:
     """Gathers contours one behind the other."""
 
@@ -84,7 +90,7 @@ class _Builder:
     def add_slice(self, z: Any, given: Any) -> None:
         number = len(self.heights)
         try:
-            self.heights.append(float(z))
+            self.heights.append(_height(z))
         except (TypeError, ValueError):
             raise InputError(f"slice {number}: a height is wanted, not {z!r}") from None
         place = f"slice {number} (z = {self.heights[-1]:g})"
@@ -247,7 +253,7 @@ class Stack:
 
     @unit.setter
     def unit(self, unit: str) -> None:
-        self._stack.unit = str(unit)
+        self._stack = self._stack.with_unit(str(unit))
 
     @property
     def notes(self) -> List[str]:
@@ -288,7 +294,7 @@ class Stack:
 
     def write(self, path: Path) -> List[str]:
         """Writes the stack; the extension chooses the format. Returns what it cannot hold."""
-        return list(self._stack.write(os.fspath(path)))
+        return list(self._stack.write(os.fsencode(path)))
 
     def __len__(self) -> int:
         return int(self._stack.slice_count())
@@ -326,6 +332,8 @@ def _layers(volume: Any, labels: Any) -> Tuple[List[NDArray[Any]], List[Any], bo
             layers = [layer.astype(bool) for layer in layers]
         return layers, [(str(name), i, 1.0, None) for i, name in enumerate(volume)], is_share
     pixels = _pixels(volume, "volume")
+    if pixels.dtype.kind in "ui" and pixels.dtype.itemsize == 8:
+        pixels, labels = _renumbered(pixels, labels)
     is_share = pixels.dtype.kind == "f" and not labels
     told = []
     for value, name in (labels or {}).items():
@@ -334,6 +342,18 @@ def _layers(volume: Any, labels: Any) -> Tuple[List[NDArray[Any]], List[Any], bo
         except (TypeError, ValueError):
             raise InputError(f"labels: {value!r} is no value of a pixel") from None
     return [pixels], told, is_share
+
+
+def _renumbered(pixels: NDArray[Any], labels: Any) -> Tuple[NDArray[Any], Any]:
+    """Values beyond 32 bits, as segments of large volumes have, by small numbers in their order."""
+    if pixels.size == 0 or int(pixels.max()) <= 0xFFFFFFFF or int(pixels.min()) < 0:
+        return pixels, labels
+    values, number_of = np.unique(pixels, return_inverse=True)
+    names = {int(value): name for value, name in (labels or {}).items()}
+    numbers_ = np.cumsum(values != 0) * (values != 0)
+    told = {int(number): str(names.get(int(value), int(value)))
+            for number, value in zip(numbers_, values) if number}
+    return numbers_.astype(np.uint32)[number_of].reshape(pixels.shape), told
 
 
 def _pixels(values: Any, what: str) -> NDArray[Any]:
@@ -391,7 +411,7 @@ def read(path: Union[Path, Sequence[Path]], *, only: Any = None, leave_out: Any 
     names = [os.fspath(one) for one in paths]
     if not names or not all(isinstance(name, str) for name in names):
         raise InputError("path: a path, or a list of paths, is wanted")
-    stack = _loft.read(names, {
+    stack = _loft.read([os.fsencode(name) for name in names], {
         "spacing": spacing, "outline": outline, "level": level, "fill": fill,
         "z_property": z_property, "close": close, "alignment": alignment,
         "label_by_file": not merge, "threads": threads})

@@ -8,7 +8,7 @@ import enum
 import os
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple
+from typing import Any, Dict, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from . import _loft, picture
 from .errors import Defect, InputError
 from .mesh import Check, Measures, Section, section
-from .stack import Colour, Path, Stack
+from .stack import Colour, Path, Stack, matching
 
 GREY = (176, 184, 196)
 
@@ -202,17 +202,20 @@ def _restored(arrays: Any, label: str, told: Dict[str, Any]) -> Surface:
 
 
 def write(surfaces: Mapping[str, Surface], path: Path, *, unit: Optional[str] = None,
-          compress: Optional[str] = None, hide: Sequence[str] = (),
+          compress: Optional[str] = None, hide: Union[None, str, Sequence[str]] = None,
           contours_of: Optional[Stack] = None, sources: Sequence[str] = (),
           settings: Optional[Mapping[str, str]] = None) -> Written:
-    name = os.fspath(path)
+    name = os.fsdecode(path)
+    hidden = matching(list(surfaces), hide, None) if hide else []
     if len(surfaces) > 1 and name.lower().endswith(".stl"):
         raise InputError(f"{name}: STL would make one solid of {len(surfaces)} labels; write .glb, "
                          ".ply or .obj, which keep them apart, or each by itself")
-    parts = [(label, one._surface, one.colour, one.id, one.category, one.source, one.slices,
-              label in hide) for label, one in surfaces.items()]
+    parts = [(label, one._surface, one.colour, one.id, one.category, os.fsencode(one.source),
+              one.slices,
+              label in hidden) for label, one in surfaces.items()]
     units = {one.unit for one in surfaces.values()} or {"mm"}
-    written = _loft.write(name, parts, unit or units.pop(), list(sources), dict(settings or {}),
+    written = _loft.write(os.fsencode(name), parts, unit or units.pop(),
+                          [os.fsencode(source) for source in sources], dict(settings or {}),
                           compress or "", contours_of._stack if contours_of is not None else None)
     return Written(**written)
 

@@ -14,10 +14,11 @@ import sys
 
 from distributed import Client, LocalCluster, as_completed
 
-from study import make, write_table
+from study import check_names, make, write_table
 
 
 def main(folder, studies):
+    check_names(studies)
     os.makedirs(folder, exist_ok=True)
     scheduler = os.environ.get("SCHEDULER")
     cluster = None if scheduler else LocalCluster(

@@ -13,10 +13,11 @@ from functools import partial
 
 from mpi4py.futures import MPIPoolExecutor
 
-from study import make, write_table
+from study import check_names, make, write_table
 
 
 def main(folder, studies):
+    check_names(studies)
     os.makedirs(folder, exist_ok=True)
     with MPIPoolExecutor() as pool:
         rows = [row for made in pool.map(partial(make, folder=folder), studies, unordered=True)

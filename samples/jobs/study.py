@@ -15,6 +15,16 @@ def make(path, folder):
     return [[study, label, surface.volume, surface.area] for label, surface in made.items()]
 
 
+def check_names(studies):
+    """Ends the program where two studies would have one name."""
+    names = {}
+    for path in studies:
+        name = os.path.splitext(os.path.basename(path))[0]
+        other = names.setdefault(name, path)
+        if other is not path:
+            raise SystemExit(f"{other} and {path}: both would be {name}.glb; rename one of them")
+
+
 def write_table(rows, folder):
     """All rows in the order of studies and labels, as volumes.csv."""
     import csv
