@@ -34,11 +34,16 @@ TEST(SkipExisting, AfterKillsNothingIsLostAndBytesAreTheSame) {
     std::this_thread::sleep_for(std::chrono::milliseconds(delay));
     job.send(kills % 2 == 0 ? SIGKILL : SIGTERM);
     const int code = job.wait();
-    for (const auto& [name, bytes] : files_in(folder / "out"))
-      if (!is_temporary(name)) EXPECT_EQ(bytes, whole.at(name)) << name << ": whole or not there";
+    for (const auto& [name, bytes] : files_in(folder / "out")) {
+      if (is_temporary(name)) continue;
+      EXPECT_EQ(bytes, whole.at(name)) << name << ": whole or not there";
+    }
     if (code == 0) break;
-    if (kills % 2 == 0) EXPECT_EQ(code, -SIGKILL);
-    if (kills % 2 == 1) EXPECT_TRUE(code == 130 || code == -SIGTERM) << code;  // it had not begun
+    if (kills % 2 == 0) {
+      EXPECT_EQ(code, -SIGKILL);
+    } else {
+      EXPECT_TRUE(code == 130 || code == -SIGTERM) << code;  // it had not begun
+    }
     ++kills;
   }
   EXPECT_GT(kills, 0);
