@@ -190,8 +190,9 @@ TEST(Loft, ReportsLinks) {
   static_cast<void>(folder.write("links.ndjson",
                                  "{\"from\": [1, 0], \"to\": [2, 1], \"link\": true}\n"
                                  "{\"from\": [1, 0], \"to\": [2, 0], \"link\": false}\n"));
-  const Outcome outcome = run(
-      folder, "reconstruct in.ndjson -o a.ply --json --list-slabs --links links.ndjson --max-shift 3");
+  const Outcome outcome =
+      run(folder,
+          "reconstruct in.ndjson -o a.ply --json --list-slabs --links links.ndjson --max-shift 3");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto report = nlohmann::json::parse(outcome.out);
   EXPECT_EQ(report["options"]["link"], "auto");
