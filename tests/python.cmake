@@ -9,7 +9,7 @@ file(MAKE_DIRECTORY ${scratch})
 set(environment PYTHONPATH=${module_folder} PYTHONDONTWRITEBYTECODE=1)
 
 # AddressSanitizer wants to be loaded before an interpreter that was built without it. The interpreter
-# leaks on purpose; it takes each object from malloc, so that its ends are watched.
+# leaks on purpose. Arrays are from malloc, so that their ends are watched.
 string(REGEX MATCH "-fsanitize=[a-z,-]*address" with_asan "${CMAKE_CXX_FLAGS}")
 set(program $<$<TARGET_EXISTS:loft>:$<TARGET_FILE:loft>>)
 if(with_asan)
@@ -19,7 +19,7 @@ if(with_asan)
   endif()
   execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${runtime}
     OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
-  list(APPEND environment LD_PRELOAD=${runtime} ASAN_OPTIONS=detect_leaks=0 PYTHONMALLOC=malloc
+  list(APPEND environment LD_PRELOAD=${runtime} ASAN_OPTIONS=detect_leaks=0
     UBSAN_OPTIONS=print_stacktrace=1)
   # The program has its own.
   file(GENERATE OUTPUT ${scratch}/loft CONTENT "#!/bin/sh\nunset LD_PRELOAD\nexec '${program}' \"$@\"\n"

@@ -59,7 +59,7 @@ array() {
 for task in 0 1 2; do
   (array $task) 2> "$folder/words" &
   job=$!
-  until [ -e "$folder/slurm/job-$task.json" ]; do sleep 0.02; done
+  until [ -e "$folder/slurm/job-$task-0.json" ]; do sleep 0.02; done
   sleep 0.2
   kill -TERM $job
   code=0

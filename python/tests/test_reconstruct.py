@@ -27,7 +27,7 @@ def same(a, b):
     return np.array_equal(a.vertices, b.vertices) and np.array_equal(a.faces, b.faces)
 
 
-def large(random, rings=24, points=200):
+def large(random, rings=16, points=150):
     """A stack that takes some tenths of a second."""
     angles = np.arange(points) * (2 * np.pi / points)
     circle = np.stack([np.cos(angles), np.sin(angles)], 1)
@@ -100,6 +100,15 @@ class ASurface(unittest.TestCase):
             surface.to_trimesh()
         fake.Trimesh.assert_called_once_with(surface.vertices, surface.faces, process=False)
 
+    def test_is_not_made_of_faces_that_meet_in_a_vertex_alone(self):
+        from loft import _loft
+
+        faces = np.array([[0, 1, 2], [0, 3, 4]], dtype=np.uint32)
+        with self.assertRaisesRegex(loft.InputError, "vertex 0"):
+            _loft.surface_from_arrays(np.eye(5, 3), faces, np.zeros(5, np.uint8),
+                                      np.zeros((5, 3), np.int32), np.zeros(2, np.uint8),
+                                      np.zeros(2, np.uint32))
+
     def test_shows_itself(self):
         made = loft.reconstruct(loft.Stack.from_mask({"<b>": ball()}, (1, 1, 1)))
         self.assertIn("data:image/png;base64,", made._repr_html_())
@@ -139,6 +148,10 @@ class Reconstructing(unittest.TestCase):
                 self.assertRaises(loft.InputError, lambda: loft.reconstruct(stack, **options))
         with self.assertRaisesRegex(loft.InputError, "'flat', 'dome', 'open', 'extend'"):
             loft.reconstruct(stack, cap="round")
+
+    def test_makes_contours_without_a_label_beside_others(self):
+        slices = [(z, {"": [SQUARE], "h": [SQUARE]}) for z in range(2)]
+        self.assertEqual(list(loft.reconstruct(slices, only="")), [""])
 
     def test_keeps_apart_or_joins_what_links_say(self):
         slices = [(0, [SQUARE]), (1, [SQUARE])]
@@ -258,6 +271,17 @@ class Writing(unittest.TestCase):
                     loft.reconstruct(sample, **options).write(ours)
                     with open(ours, "rb") as a, open(theirs, "rb") as b:
                         self.assertEqual(a.read(), b.read(), f"{sample} {name}")
+
+    def test_takes_names_that_are_not_utf_8(self):
+        with tempfile.TemporaryDirectory() as folder:
+            name = os.path.join(os.fsencode(folder), b"caf\xe9.ndjson")
+            stack = loft.Stack([(0, [SQUARE]), (1, [SQUARE])])
+            stack.write(name)
+            self.assertEqual(loft.read(os.fsdecode(name)), stack)
+            loft.reconstruct(os.fsdecode(name)).write(name[:-7] + b".glb")
+            with self.assertRaises(loft.FileError) as raised:
+                loft.read(os.fsdecode(name) + "x.ndjson")
+            self.assertIn("caf\udce9", raised.exception.filename)
 
     def test_is_refused_where_it_makes_no_sense(self):
         made = loft.reconstruct(random_slices(seeded(), labels=("a", "b")))

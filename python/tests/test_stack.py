@@ -111,6 +111,14 @@ class AMask(unittest.TestCase):
                         mask[::-1].astype(np.uint8)[::-1]):
             self.assertEqual(loft.Stack.from_mask(strided, (2, 1, 1)), expected)
 
+    def test_keeps_apart_ids_beyond_what_doubles_hold(self):
+        first = 720575940621039145  # and the next one is the same double
+        volume = np.zeros((4, 6, 12), dtype=np.uint64)
+        volume[:, 1:5, 1:5] = first
+        volume[:, 1:5, 7:11] = first + 1
+        stack = loft.Stack.from_mask(volume, (1, 1, 1), labels={first: "a"})
+        self.assertEqual(stack.labels, [str(first + 1), "a"])
+
     def test_may_have_shares(self):
         z, y, x = np.mgrid[:24, :24, :24] - 11.5
         shares = np.clip(0.5 + (8 - np.sqrt(x * x + y * y + z * z)) / 4, 0, 1)

@@ -59,6 +59,34 @@ TEST(Neuroglancer, WhatIsThereIsNotMadeAgain) {
   EXPECT_EQ(again["parts"][0]["label"], "cell 2");
 }
 
+// Both were replaced without a word.
+TEST(Neuroglancer, AFolderOfSomethingElseOrOfAnotherStackIsLeftAlone) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", many_labels(3, 4)));
+  static_cast<void>(folder.write("other.ndjson", many_labels(5, 4)));
+  std::filesystem::create_directory(folder / "volume");
+  const std::string volume = R"({"@type": "neuroglancer_multiscale_volume"})";
+  static_cast<void>(folder.write("volume/info", volume));
+  EXPECT_EQ(run(folder, "reconstruct in.ndjson -q -o precomputed://volume").exit_code, 4);
+  EXPECT_EQ(content(folder / "volume/info"), volume);
+  ASSERT_EQ(run(folder, "reconstruct in.ndjson -q -o precomputed://meshes").exit_code, 0);
+  const auto before = files_in(folder / "meshes");
+  const Outcome other =
+      run(folder, "reconstruct other.ndjson -q -o precomputed://meshes --only 'cell 4'");
+  EXPECT_EQ(other.exit_code, before == files_in(folder / "meshes") ? 4 : 0) << other.err;
+  ASSERT_EQ(run(folder, "reconstruct in.ndjson -q -o precomputed://").exit_code, 2);
+}
+
+TEST(Neuroglancer, AFragmentNamedManyTimesIsReadNeverThatOften) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", barrel()));
+  ASSERT_EQ(run(folder, "reconstruct in.ndjson -q -o precomputed://meshes").exit_code, 0);
+  static_cast<void>(folder.write("meshes/1:0", R"({"fragments": ["1:0:1", "1:0:1"]})"));
+  const Outcome checked = run(folder, "check precomputed://meshes");
+  EXPECT_EQ(checked.exit_code, 3);
+  EXPECT_NE(checked.err.find("twice"), std::string::npos) << checked.err;
+}
+
 TEST(Neuroglancer, AStackWithoutLabelsHasOneMesh) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", barrel()));

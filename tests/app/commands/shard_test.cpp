@@ -117,13 +117,36 @@ TEST(Shard, OfSeveralFilesIsOfTheirLabelsTogether) {
 TEST(Shard, WithoutALabelSucceedsAndWritesNothing) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", barrel()));
-  for (const std::string how : {"", " --out-of-core"}) {
-    const Outcome made = run(folder, "reconstruct in.ndjson -o out.ply --json --shard 1/2" + how);
-    EXPECT_EQ(made.exit_code, 0) << made.err;
-    EXPECT_NE(made.err.find("nothing to do"), std::string::npos) << made.err;
-    EXPECT_TRUE(nlohmann::json::parse(made.out)["parts"].empty());
-    EXPECT_FALSE(std::filesystem::exists(folder / "out.ply"));
+  const Outcome made = run(folder, "reconstruct in.ndjson -o '{label}.ply' --json --shard 1/2");
+  EXPECT_EQ(made.exit_code, 0) << made.err;
+  EXPECT_NE(made.err.find("nothing to do"), std::string::npos) << made.err;
+  EXPECT_TRUE(nlohmann::json::parse(made.out)["parts"].empty());
+  EXPECT_EQ(files_in(folder / ".").size(), 1U);
+}
+
+// The second job replaced the file of the first; tables of volumes, too.
+TEST(Shard, OfAFileOfAllLabelsIsRefused) {
+  const Folder folder;
+  static_cast<void>(folder.write("in.ndjson", many_labels(4, 3)));
+  for (const std::string how :
+       {"-o all.ply --shard 0/2", "-o '{label}.ply' -o all.glb --shard 0/2",
+        "-o '{label}.ply' --csv v.csv --shard 0/2", "-o all.ply --csv v.csv --skip-existing"}) {
+    const Outcome refused = run(folder, "reconstruct in.ndjson " + how);
+    EXPECT_EQ(refused.exit_code, 2) << how;
+    EXPECT_NE(refused.err.find("would replace"), std::string::npos) << refused.err;
   }
+  EXPECT_EQ(files_in(folder / ".").size(), 1U);
+}
+
+TEST(Shard, OfContoursWithoutLabelBesideOthersIsThatOfThose) {
+  const Folder folder;
+  const auto both = [](double z) {
+    std::string line = slice(z, ring(2) + ", " + ring(1, 8, 9));
+    line.insert(line.find_last_of('}'), R"(, "labels": ["", "h"])");
+    return line;
+  };
+  static_cast<void>(folder.write("in.ndjson", both(0) + both(1)));
+  EXPECT_EQ(run(folder, "reconstruct in.ndjson --merge -q --only '' -o a.ply").exit_code, 0);
 }
 
 TEST(Shard, WhereAllLabelsAreSkippedIsNoFailureOfTheOthers) {

@@ -80,7 +80,8 @@ TEST(SkipExisting, MakesALabelThatLacksOneOfItsFilesAndKeepsTheOther) {
 }
 
 TEST(SkipExisting, ReadsNothingWhereAllIsKnownToBeThere) {
-  const Folder folder;  // where there is no stack to read
+  const Folder folder;
+  static_cast<void>(folder.write("none.ndjson", "no stack"));  // reading it would fail
   static_cast<void>(folder.write("out.ply", "as it is"));
   static_cast<void>(folder.write("a.ply", "as it is"));
   EXPECT_EQ(run(folder, "reconstruct none.ndjson -o out.ply --skip-existing").exit_code, 0);
@@ -90,6 +91,7 @@ TEST(SkipExisting, ReadsNothingWhereAllIsKnownToBeThere) {
   EXPECT_EQ(
       run(folder, "reconstruct none.ndjson -o '{label}.ply' --only 'a*' --skip-existing").exit_code,
       3);
+  EXPECT_EQ(run(folder, "reconstruct missing.ndjson -o out.ply --skip-existing").exit_code, 3);
 }
 
 TEST(SkipExisting, AskedToEndSaysWhatIsDone) {
