@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <fstream>
 #include <string>
@@ -21,8 +22,7 @@ inline std::size_t memory_in_use() {
 
 /// A number of bytes in units of 2^20, as schedulers count a job's megabytes; one place.
 inline double megabytes(std::size_t bytes) {
-  constexpr std::size_t tenths = (std::size_t{1} << 20U) / 10;
-  return static_cast<double>((bytes + tenths - 1) / tenths) / 10;
+  return std::ceil(static_cast<double>(bytes) / 0x1p20 * 10) / 10;
 }
 
 /// The most memory of this process that was in RAM, all in all and since the last look, in bytes;
