@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "reconstruct/defect.h"
 
+#include <algorithm>
 #include <sstream>
 #include <utility>
 
@@ -74,5 +75,11 @@ std::string describe(const Defect& defect) {
 
 InputError::InputError(std::vector<Defect> defects)
     : Error(lines(defects)), defects_(std::move(defects)) {}
+
+bool is_too_little(const InputError& error) {
+  return !error.defects().empty() && std::ranges::all_of(error.defects(), [](const Defect& defect) {
+    return defect.kind == DefectKind::too_few_slices;
+  });
+}
 
 }  // namespace loft

@@ -73,4 +73,7 @@ class InputError : public Error {
   std::vector<Defect> defects_;
 };
 
+/// Whether all that is wrong is that there is not enough of it: such labels stop no others.
+[[nodiscard]] bool is_too_little(const InputError& error);
+
 }  // namespace loft

@@ -18,12 +18,8 @@ class Surfaces {
     for (const auto& [label, snapshot] : view.parts) {
       if (snapshot.slab_count() == 0) continue;
       surfaces_.emplace_back(snapshot);
-      io::Part& part = parts_.emplace_back(io::Part{label, &surfaces_.back().surface});
-      const StackLabel* const said = find(about, label);
-      if (said == nullptr) continue;
-      part.colour = said->colour;
-      part.id = said->id;
-      part.kind = said->kind;
+      parts_.push_back(io::part_of(about, label));
+      parts_.back().surface = &surfaces_.back().surface;
     }
   }
 

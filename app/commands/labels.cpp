@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "app/commands/labels.h"
 
-#include <algorithm>
-
 #include "app/commands/place_of.h"
 #include "app/exit_code.h"
 #include "app/place.h"
@@ -15,13 +13,6 @@ namespace {
 void add_line(std::string& text, const std::string& line) {
   if (!text.empty()) text += '\n';
   text += line;
-}
-
-/// Whether all that is wrong is that there is not enough of it.
-bool is_too_little(const InputError& error) {
-  return !error.defects().empty() && std::ranges::all_of(error.defects(), [](const Defect& defect) {
-    return defect.kind == DefectKind::too_few_slices;
-  });
 }
 
 }  // namespace

@@ -173,24 +173,13 @@ class WorldSink : public SurfaceSink {
 
 /// What decides how a part comes out, by the names of options.
 std::map<std::string, std::string> part_settings(const Options& options) {
-  std::map<std::string, std::string> settings{
-      {"fill", name(options.fill)},
-      {"cap", name(options.cap)},
-      {"link", name(options.link)},
-      {"smooth", options.smooth ? "yes" : "no"},
-      {"tolerance", exact(options.tolerance)},
-      {"height-tolerance", exact(options.height_tolerance)}};
-  for (const auto& [setting, length] : lengths(options)) settings[setting] = exact(length);
+  std::map<std::string, std::string> settings = settings_of(options);
+  settings["smooth"] = options.smooth ? "yes" : "no";
+  settings["tolerance"] = exact(options.tolerance);
+  settings["height-tolerance"] = exact(options.height_tolerance);
   if (options.keyhole_width) settings["keyhole-width"] = exact(*options.keyhole_width);
   if (options.max_shift) settings["max-shift"] = exact(*options.max_shift);
   return settings;
-}
-
-std::string hexadecimal_text(std::uint64_t number) {
-  std::string text;
-  for (int shift = 60; shift >= 0; shift -= 4)
-    text += "0123456789abcdef"[(number >> static_cast<unsigned>(shift)) & 15U];
-  return text;
 }
 
 /// What else than slices tells a stack from others. `before`: the checksum of these.
@@ -236,7 +225,7 @@ class RangeWork {
   void commit(const ReconstructCommand& command, std::uint64_t stack,
               const std::vector<std::optional<Colour>>& colours, io::PlyPieces& output) const {
     io::PlyPartNote note{range_, slab_count_, part_settings(command.options), surfaces_};
-    note.origin["stack"] = hexadecimal_text(checksum_of(about_, colours, stack));
+    note.origin["stack"] = io::hexadecimal(checksum_of(about_, colours, stack));
     output.commit(note, seam_places_);
   }
 

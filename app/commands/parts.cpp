@@ -32,7 +32,7 @@ std::set<std::string> hidden_labels(const ReconstructCommand& command,
 }
 
 io::Part part_of(const ReconstructCommand& command, const Stack& stack, const std::string& label) {
-  io::Part part = io::part_of(stack, label);
+  io::Part part = io::part_of(stack.labels, label);
   part.source = source_of(command, label);
   if (command.with_contours) part.contours = io::contour_lines(stack, label);
   return part;

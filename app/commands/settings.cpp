@@ -81,12 +81,9 @@ Capture::Setup setup_of(const StreamCommand& command) {
 }
 
 std::map<std::string, std::string> settings_of(const StreamCommand& command) {
-  std::map<std::string, std::string> settings{{"fill", name(command.options.fill)},
-                                              {"cap", name(command.options.cap)},
-                                              {"link", name(command.options.link)},
-                                              {"smooth", command.options.smooth ? "true" : "false"},
-                                              {"unit", command.unit}};
-  for (const auto& [setting, length] : lengths(command.options)) settings[setting] = exact(length);
+  std::map<std::string, std::string> settings = settings_of(command.options);
+  settings["smooth"] = command.options.smooth ? "true" : "false";
+  settings["unit"] = command.unit;
   if (command.options.keyhole_width)
     settings["keyhole_width"] = exact(*command.options.keyhole_width);
   if (command.options.tolerance != Options().tolerance || command.given.contains("tolerance"))

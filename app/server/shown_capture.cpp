@@ -2,29 +2,17 @@
 #include "app/server/shown_capture.h"
 
 #include <algorithm>
-#include <set>
 #include <sstream>
-#include <string_view>
 #include <utility>
 
 #include "app/capture/surfaces.h"
+#include "app/report.h"
 #include "io/meshes/skin.h"
 #include "io/surfaces.h"
 
 namespace loft::app {
 
 namespace {
-
-/// How many slices have contours of a label. Cost: that of all contours, once for all labels.
-std::map<std::string_view, std::size_t> count_slices(const Snapshot& snapshot) {
-  std::map<std::string_view, std::size_t> counts;
-  for (std::size_t i = 0; i < snapshot.slice_count(); ++i) {
-    std::set<std::string_view> labels;
-    for (const Contour& contour : snapshot.slice(i).contours) labels.insert(contour.label);
-    for (const std::string_view label : labels) ++counts[label];
-  }
-  return counts;
-}
 
 /// So many faces make a GLB, and what the last slab has beyond.
 constexpr std::size_t most_bundled_faces = 32'768;
@@ -93,11 +81,14 @@ std::vector<ShownLabel> ShownCapture::labels() {
   for (std::size_t part = 0; part < view->parts.size(); ++part)
     labels.push_back(measure(*view, part, measured_, now));
   // All parts go through the same slices.
-  const auto counts = view->parts.empty() ? std::map<std::string_view, std::size_t>()
-                                          : count_slices(view->parts.front().snapshot);
+  std::map<std::string, StackSize> sizes;
+  if (!view->parts.empty()) {
+    const Snapshot& snapshot = view->parts.front().snapshot;
+    for (std::size_t i = 0; i < snapshot.slice_count(); ++i) add_sizes(sizes, snapshot.slice(i));
+  }
   for (ShownLabel& label : labels) {
-    if (const auto found = counts.find(label.label); found != counts.end())
-      label.slices = found->second;
+    if (const auto found = sizes.find(label.label); found != sizes.end())
+      label.slices = found->second.slices;
     const StackLabel* const said = loft::find(capture_.setup().labels, label.label);
     if (said == nullptr) continue;
     label.colour = said->colour;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,14 @@ namespace loft::io {
     text += digits[share / 16];
     text += digits[share % 16];
   }
+  return text;
+}
+
+/// All 16 digits.
+[[nodiscard]] inline std::string hexadecimal(std::uint64_t number) {
+  std::string text;
+  for (int shift = 60; shift >= 0; shift -= 4)
+    text += "0123456789abcdef"[(number >> static_cast<unsigned>(shift)) & 15U];
   return text;
 }
 

@@ -34,10 +34,10 @@ std::vector<ContourLine> contour_lines(const Stack& stack, const std::string& la
   return lines;
 }
 
-Part part_of(const Stack& stack, const std::string& label) {
+Part part_of(std::span<const StackLabel> about, const std::string& label) {
   Part part;
   part.label = label;
-  if (const StackLabel* const said = stack.find_label(label); said != nullptr) {
+  if (const StackLabel* const said = find(about, label); said != nullptr) {
     part.colour = said->colour;
     part.id = said->id;
     part.kind = said->kind;

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -36,8 +37,9 @@ struct Part {
   bool is_hidden = false;                  ///< until a viewer is told to show it
 };
 
-/// What a stack says of a label; the surface is still to be added.
-[[nodiscard]] Part part_of(const Stack& stack, const std::string& label);
+/// A label with what its source tells of it, if it is among those; the surface is still to be
+/// added.
+[[nodiscard]] Part part_of(std::span<const StackLabel> about, const std::string& label);
 
 /// The contours of a label, where they are in the world, from low to high.
 [[nodiscard]] std::vector<ContourLine> contour_lines(const Stack& stack, const std::string& label);

@@ -142,7 +142,7 @@ void Job::wait(const py::object& progress) {
 void run(const py::object& progress, std::function<void(Job&)> work) {
   auto job = std::make_shared<Job>();
   jobs.load()->add(job);
-  const auto body = [job, work = std::move(work)]() mutable {
+  auto body = [job, work = std::move(work)]() mutable {
     std::exception_ptr failure;
     try {
       work(*job);
@@ -154,7 +154,7 @@ void run(const py::object& progress, std::function<void(Job&)> work) {
     job->finish(std::move(failure));
   };
   try {
-    std::thread(body).detach();
+    std::thread(std::move(body)).detach();
   } catch (const std::system_error& error) {
     jobs.load()->remove(job);
     throw Error(std::string("no thread can be begun: ") + error.what());

@@ -3,9 +3,7 @@
 
 #include <pybind11/stl.h>
 
-#include <algorithm>
 #include <array>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -54,7 +52,7 @@ class Work {
       if (is_labelled) options_.label = labels_[i];
       make(job, contours, i);
     }
-    if (!fatal_.empty() || all_.skipped.size() == labels_.size())
+    if (is_fatal_ || all_.skipped.size() == labels_.size())
       throw problems_.size() == 1 ? problems_[0] : InputError(everything());
     return std::move(all_);
   }
@@ -84,15 +82,10 @@ class Work {
   /// Labels with too few slices stop no others.
   void note(const std::string& label, const InputError& error) {
     problems_.push_back(error);
-    const bool is_too_little =
-        !error.defects().empty() && std::ranges::all_of(error.defects(), [](const Defect& defect) {
-          return defect.kind == DefectKind::too_few_slices;
-        });
-    if (is_too_little) {
+    if (is_too_little(error)) {
       all_.skipped.emplace_back(label, error.what());
     } else {
-      fatal_ += label;
-      fatal_ += ' ';
+      is_fatal_ = true;
     }
   }
 
@@ -116,7 +109,7 @@ class Work {
   Options options_;
   std::vector<std::string> labels_;
   std::vector<InputError> problems_;
-  std::string fatal_;
+  bool is_fatal_ = false;
   All all_;
 };
 
@@ -162,7 +155,7 @@ std::vector<LinkOrder> orders_of(const std::vector<GivenLink>& links) {
   return orders;
 }
 
-/// The stack with the fill rule and keyhole width that the caller asks for in the place of its own.
+/// The stack with the fill rule that the caller asks for in the place of its own.
 std::shared_ptr<const Stack> with_choice(const std::shared_ptr<Stack>& stack, bool has_fill,
                                          Options& options) {
   if (!has_fill || !stack->fill || *stack->fill == options.fill) {

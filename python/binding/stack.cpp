@@ -255,6 +255,9 @@ void add_stack(py::module_& module) {
       .def("only", &only_with)
       .def("write", &write_to)
       .def("__eq__", [](const Stack& a, const Stack& b) { return a == b; });
+  module.def("labels_of", [](const std::vector<std::string>& names) {
+    return io::labels_of(to_paths(names), io::Unlabelled::label_by_file);
+  });
   module.def("read", &read_stack_at);
   module.def("stack_from_arrays", &stack_of_arrays);
 }

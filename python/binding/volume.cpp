@@ -84,16 +84,12 @@ std::vector<Layer> layers_of(const std::vector<py::array>& arrays) {
   return layers;
 }
 
-/// Name, layer and value; colour.
-using PixelLabel =
-    std::tuple<std::string, std::uint32_t, double, std::optional<std::array<std::uint8_t, 3>>>;
+/// Name, layer and value.
+using PixelLabel = std::tuple<std::string, std::uint32_t, double>;
 
 void tell_pixel_labels(io::Volume& volume, const std::vector<PixelLabel>& labels) {
-  for (const auto& [name, layer, value, colour] : labels) {
-    io::VolumeLabel label{StackLabel{name}, layer, value};
-    if (colour) label.label.colour = Colour{(*colour)[0], (*colour)[1], (*colour)[2]};
-    volume.labels.push_back(label);
-  }
+  for (const auto& [name, layer, value] : labels)
+    volume.labels.push_back({StackLabel{name}, layer, value});
 }
 
 void set_world(io::Volume& volume, const Array<double>& to_world) {

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from . import _loft
 from .errors import Defect, InputError
-from .rings import ring_of
+from .rings import height_of, ring_of
 from .stack import Slice, Stack
 from .surface import Surface
 
@@ -61,13 +61,6 @@ def _change(told: Any) -> Change:
     return Change(tuple(removed), tuple(Slab(*one) for one in added), tuple(resewn), v_added,
                   v_removed, f_added, f_removed, None if bounds is None else np.array(bounds),
                   tuple(Defect(*one) for one in repairs))
-
-
-def _height(z: Any, what: str = "z") -> float:
-    try:
-        return float(z)
-    except (TypeError, ValueError):
-        raise InputError(f"{what}: a height is wanted, not {z!r}") from None
 
 
 def _number(value: Any, what: str) -> int:
@@ -164,7 +157,7 @@ class Reconstruction:
         at the new height.
         """
         there = Stack([self._one(z if new_z is None else new_z, rings)])
-        return _change(self._live.replace(_height(z), there._stack))
+        return _change(self._live.replace(height_of(z, "z"), there._stack))
 
     def replace_many(self, slices: Iterable[Tuple[float, Any]]) -> Change:
         """Puts each (z, rings) into the place of the slice at its height, all as one edit.
@@ -179,7 +172,7 @@ class Reconstruction:
 
     def remove(self, z: float) -> Change:
         """Removes the slice at z. Raises InputError, with the nearest height, where there is none."""
-        return _change(self._live.remove(_height(z)))
+        return _change(self._live.remove(height_of(z, "z")))
 
     def move_contour(self, z: float, contour: int, points: Any) -> Change:
         """Gives a contour of the slice at z other points; it keeps its label.
@@ -188,8 +181,8 @@ class Reconstruction:
         none.
         """
         number = _number(contour, "contour")
-        ring = ring_of(points, "points", Defect("bad_ring", "", _height(z), 0, number))
-        return _change(self._live.move_contour(_height(z), number, ring))
+        ring = ring_of(points, "points", Defect("bad_ring", "", height_of(z, "z"), 0, number))
+        return _change(self._live.move_contour(height_of(z, "z"), number, ring))
 
     @property
     def surface(self) -> Surface:
@@ -238,11 +231,11 @@ class Reconstruction:
 
     def slice(self, z: float) -> Optional[Slice]:
         """The slice at a height, or None."""
-        found = self._live.slice(_height(z))
+        found = self._live.slice(height_of(z, "z"))
         return None if found is None else Stack._of(found).slices[0]
 
     def __contains__(self, z: float) -> bool:
-        return bool(self._live.has(_height(z)))
+        return bool(self._live.has(height_of(z, "z")))
 
     def __len__(self) -> int:
         """The number of slices."""

@@ -112,8 +112,7 @@ def _source_of(stack: Stack, label: str) -> str:
     """The file that a label comes from, where that is known."""
     if len(stack._sources) == 1:
         return stack._sources[0]
-    named = [name for name in stack._sources if label and os.path.splitext(name)[0] == label]
-    return named[0] if len(named) == 1 else ""
+    return stack._files.get(label, "")
 
 
 def reconstruct(stack: Any, *, only: Any = None, leave_out: Any = None,

@@ -31,6 +31,16 @@ def numbers(values: Any, what: str) -> Points:
     return np.ascontiguousarray(array, dtype=np.float64)
 
 
+def height_of(z: Any, what: str) -> float:
+    """A height; InputError for what is none."""
+    try:
+        if isinstance(z, (complex, np.complexfloating)):
+            raise TypeError
+        return float(z)
+    except (TypeError, ValueError):
+        raise InputError(f"{what}: a height is wanted, not {z!r}") from None
+
+
 def _lines(geometry: Any) -> Iterator[Any]:
     """The rings of a geometry as shapely has them, each without its repeated first point."""
     if hasattr(geometry, "geoms"):

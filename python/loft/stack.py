@@ -13,7 +13,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from . import _loft
 from .errors import InputError
-from .rings import Points, numbers, plain_array, rings_of
+from .rings import Points, height_of, numbers, plain_array, rings_of
 
 Path = Union[str, "os.PathLike[str]"]
 Colour = Tuple[int, int, int]
@@ -71,12 +71,6 @@ def _by_label(given: Any) -> Iterable[Tuple[str, Any]]:
     return [("", given)]
 
 
-def _height(z: Any) -> float:
-    if isinstance(z, (complex, np.complexfloating)):
-        raise TypeError("it is complex")
-    return float(z)
-
-
 class _Builder:
     """Gathers contours one behind the other."""
 
@@ -89,10 +83,7 @@ class _Builder:
 
     def add_slice(self, z: Any, given: Any) -> None:
         number = len(self.heights)
-        try:
-            self.heights.append(_height(z))
-        except (TypeError, ValueError):
-            raise InputError(f"slice {number}: a height is wanted, not {z!r}") from None
+        self.heights.append(height_of(z, f"slice {number}"))
         place = f"slice {number} (z = {self.heights[-1]:g})"
         first = 0
         for label, rings in _by_label(given):
@@ -138,12 +129,16 @@ class Stack:
             builder.add_slice(z, rings)
         self._stack: Any = builder.build(str(unit))
         self._sources: List[str] = []
+        self._files: Dict[str, str] = {}
 
     @classmethod
-    def _of(cls, stack: Any, sources: Sequence[str] = ()) -> Stack:
+    def _of(cls, stack: Any, sources: Sequence[str] = (),
+            files: Optional[Mapping[str, str]] = None) -> Stack:
+        """sources: names of its files; files: the one that each label was named after."""
         made = cls.__new__(cls)
         made._stack = stack
         made._sources = list(sources)
+        made._files = dict(files or {})
         return made
 
     @classmethod
@@ -290,7 +285,8 @@ class Stack:
 
     def only(self, only: Any = None, *, leave_out: Any = None) -> Stack:
         """A stack with some labels alone, by names or patterns; all slices stay."""
-        return Stack._of(self._stack.only(matching(self.labels, only, leave_out)), self._sources)
+        return Stack._of(self._stack.only(matching(self.labels, only, leave_out)), self._sources,
+                         self._files)
 
     def write(self, path: Path) -> List[str]:
         """Writes the stack; the extension chooses the format. Returns what it cannot hold."""
@@ -310,14 +306,16 @@ class Stack:
         return f"<loft.Stack: {len(self)} slices{named}>"
 
     def __reduce__(self) -> Any:
-        return (_restored, (self._stack.arrays(), self.unit, self._stack.rest(), self._sources))
+        return (_restored, (self._stack.arrays(), self.unit, self._stack.rest(), self._sources,
+                            self._files))
 
 
-def _restored(arrays: Any, unit: str, rest: Any, sources: List[str]) -> Stack:
+def _restored(arrays: Any, unit: str, rest: Any, sources: List[str],
+              files: Dict[str, str]) -> Stack:
     points, offsets, slices, labels, names, heights = arrays
     stack = _loft.stack_from_arrays(points, offsets, slices, labels, names, heights, unit)
     stack.set_rest(*rest)
-    return Stack._of(stack, sources)
+    return Stack._of(stack, sources, files)
 
 
 def _layers(volume: Any, labels: Any) -> Tuple[List[NDArray[Any]], List[Any], bool]:
@@ -330,7 +328,7 @@ def _layers(volume: Any, labels: Any) -> Tuple[List[NDArray[Any]], List[Any], bo
         is_share = kinds == {True}
         if not is_share:
             layers = [layer.astype(bool) for layer in layers]
-        return layers, [(str(name), i, 1.0, None) for i, name in enumerate(volume)], is_share
+        return layers, [(str(name), i, 1.0) for i, name in enumerate(volume)], is_share
     pixels = _pixels(volume, "volume")
     if pixels.dtype.kind in "ui" and pixels.dtype.itemsize == 8:
         pixels, labels = _renumbered(pixels, labels)
@@ -338,7 +336,7 @@ def _layers(volume: Any, labels: Any) -> Tuple[List[NDArray[Any]], List[Any], bo
     told = []
     for value, name in (labels or {}).items():
         try:
-            told.append((str(name), 0, float(value), None))
+            told.append((str(name), 0, float(value)))
         except (TypeError, ValueError):
             raise InputError(f"labels: {value!r} is no value of a pixel") from None
     return [pixels], told, is_share
@@ -367,6 +365,13 @@ def _pixels(values: Any, what: str) -> NDArray[Any]:
     return array if array.dtype.isnative else array.astype(array.dtype.newbyteorder("="))
 
 
+def _three(values: Any, what: str) -> NDArray[np.float64]:
+    three = numbers(values, what)
+    if three.shape != (3,):
+        raise InputError(f"{what}: three numbers are wanted, (z, y, x)")
+    return three
+
+
 def _affine(spacing: Any, origin: Any, affine: Any) -> NDArray[np.float64]:
     matrix = np.eye(4)
     if affine is not None:
@@ -378,18 +383,12 @@ def _affine(spacing: Any, origin: Any, affine: Any) -> NDArray[np.float64]:
         return matrix
     if spacing is None:
         raise InputError("spacing: the distances of pixel centres are wanted, (z, y, x)")
-    for given, what, place in ((spacing, "spacing", None), (origin, "origin", 3)):
-        if given is None:
-            continue
-        three = numbers(given, what)
-        if three.shape != (3,):
-            raise InputError(f"{what}: three numbers are wanted, (z, y, x)")
-        if place is None:
-            if not (three > 0).all():
-                raise InputError("spacing: lengths above 0 are wanted")
-            matrix[[0, 1, 2], [0, 1, 2]] = three[::-1]
-        else:
-            matrix[:3, place] = three[::-1]
+    distances = _three(spacing, "spacing")
+    if not (distances > 0).all():
+        raise InputError("spacing: lengths above 0 are wanted")
+    matrix[[0, 1, 2], [0, 1, 2]] = distances[::-1]
+    if origin is not None:
+        matrix[:3, 3] = _three(origin, "origin")[::-1]
     return matrix
 
 
@@ -411,9 +410,12 @@ def read(path: Union[Path, Sequence[Path]], *, only: Any = None, leave_out: Any 
     names = [os.fspath(one) for one in paths]
     if not names or not all(isinstance(name, str) for name in names):
         raise InputError("path: a path, or a list of paths, is wanted")
-    stack = _loft.read([os.fsencode(name) for name in names], {
+    encoded = [os.fsencode(name) for name in names]
+    stack = _loft.read(encoded, {
         "spacing": spacing, "outline": outline, "level": level, "fill": fill,
         "z_property": z_property, "close": close, "alignment": alignment,
         "label_by_file": not merge, "threads": threads})
-    read_ = Stack._of(stack, [os.path.basename(os.path.normpath(name)) for name in names])
+    sources = [os.path.basename(os.path.normpath(os.fsdecode(name))) for name in names]
+    files = {} if merge or len(names) == 1 else dict(zip(_loft.labels_of(encoded), sources))
+    read_ = Stack._of(stack, sources, files)
     return read_.only(only, leave_out=leave_out) if only or leave_out else read_

@@ -4,6 +4,7 @@
 import os
 import random
 import sys
+import threading
 
 import numpy as np
 
@@ -11,6 +12,24 @@ SQUARE = [(0, 0), (4, 0), (4, 4), (0, 4)]
 # Sanitizers make all of it ten times as slow.
 IS_SANITIZED = "asan" in os.environ.get("LD_PRELOAD", "")
 SAMPLES = os.path.join(os.path.dirname(__file__), "..", "..", "samples")
+
+
+def failures_in_threads(work, count):
+    """What work(0), work(1), ... raised, each in a thread of its own, all at once."""
+    failures = []
+
+    def run(number):
+        try:
+            work(number)
+        except BaseException as error:  # noqa: B902
+            failures.append(error)
+
+    threads = [threading.Thread(target=run, args=(number,)) for number in range(count)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    return failures
 
 
 def seeded():

@@ -6,12 +6,11 @@ import doctest
 import math
 import pickle
 import random
-import threading
 import unittest
 
 import numpy as np
 
-from cases import seeded
+from cases import failures_in_threads, seeded
 
 import loft
 from loft import live as live_module
@@ -243,29 +242,21 @@ class Errors(unittest.TestCase):
 
 class Threads(unittest.TestCase):
     def test_threads_may_share_one(self):
-        live, failures = loft.Reconstruction(), []
+        live = loft.Reconstruction()
 
         def work(number):
             random_ = random.Random(number)
-            try:
-                for _ in range(12):
-                    z = 3.0 * random_.randrange(8) + number
-                    if z in live:
-                        live.remove(z)
-                    else:
-                        live.insert(z, [blob(random_)])
-                    assert live.surface.check().valid
-                    assert len(live.slabs) >= 0 and live.volume >= 0
-                    assert live.patch(0, 0).faces.shape == (0, 3)
-            except BaseException as error:  # noqa: B902
-                failures.append(error)
+            for _ in range(12):
+                z = 3.0 * random_.randrange(8) + number
+                if z in live:
+                    live.remove(z)
+                else:
+                    live.insert(z, [blob(random_)])
+                assert live.surface.check().valid
+                assert len(live.slabs) >= 0 and live.volume >= 0
+                assert live.patch(0, 0).faces.shape == (0, 3)
 
-        threads = [threading.Thread(target=work, args=(number,)) for number in range(3)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(failures, [])
+        self.assertEqual(failures_in_threads(work, 3), [])
         known = {one.z: [contour.points for contour in one.contours] for one in live.slices}
         if len(known) > 1:
             self.assertEqual(shape(live.surface), shape(batch(known)))

@@ -276,6 +276,19 @@ class Writing(unittest.TestCase):
                     with open(ours, "rb") as a, open(theirs, "rb") as b:
                         self.assertEqual(a.read(), b.read(), f"{sample} {name}")
 
+    def test_of_several_files_gives_the_bytes_of_the_program(self):
+        program = os.environ.get("LOFT")
+        if not program:
+            self.skipTest("LOFT, the program, is not set")
+        with tempfile.TemporaryDirectory() as folder:
+            files = [f"{folder}/{name}" for name in ("a.b.ndjson", "c.ndjson")]
+            for name in files:
+                loft.Stack([(0, [SQUARE]), (1, [SQUARE])]).write(name)
+            subprocess.run([program, "reconstruct", *files, "-q", "-o", f"{folder}/theirs.glb"],
+                           check=True)
+            loft.reconstruct(loft.read(files)).write(f"{folder}/ours.glb")
+            self.assertEqual(*(Path(folder, f"{x}.glb").read_bytes() for x in ("ours", "theirs")))
+
     def test_takes_names_that_are_not_utf_8(self):
         with tempfile.TemporaryDirectory() as folder:
             name = os.path.join(os.fsencode(folder), b"caf\xe9.ndjson")

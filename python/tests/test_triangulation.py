@@ -13,7 +13,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from cases import SQUARE, seeded
+from cases import SQUARE, failures_in_threads, seeded
 
 import loft
 from loft import triangulation
@@ -356,34 +356,25 @@ class Threads(unittest.TestCase):
 
     def test_threads_may_share_one(self):
         mesh = loft.Triangulation()
-        failures = []
 
         def work(number):
             random_ = random.Random(number)
             mine = []
-            try:
-                for step in range(60):
-                    if random_.random() < 0.6 or not mine:
-                        mine.append(mesh.insert(random_line(random_), random_.random() < 0.5))
-                    elif random_.random() < 0.5:
-                        mesh.remove(mine.pop(random_.randrange(len(mine))))
-                    else:
-                        mesh.move(random_.choice(mine), random_line(random_))
-                    state = mesh.state
-                    assert state.triangles.size == 0 or state.triangles.max() < len(state.vertices)
-                    mesh.area()
-                    if step == 30:
-                        mesh.insert_many(np.random.default_rng(step).random((5000, 1, 2)))
-                        mesh.locate(np.random.default_rng(step).random((5000, 2)))
-            except BaseException as error:  # noqa: B902
-                failures.append(error)
+            for step in range(60):
+                if random_.random() < 0.6 or not mine:
+                    mine.append(mesh.insert(random_line(random_), random_.random() < 0.5))
+                elif random_.random() < 0.5:
+                    mesh.remove(mine.pop(random_.randrange(len(mine))))
+                else:
+                    mesh.move(random_.choice(mine), random_line(random_))
+                state = mesh.state
+                assert state.triangles.size == 0 or state.triangles.max() < len(state.vertices)
+                mesh.area()
+                if step == 30:
+                    mesh.insert_many(np.random.default_rng(step).random((5000, 1, 2)))
+                    mesh.locate(np.random.default_rng(step).random((5000, 2)))
 
-        threads = [threading.Thread(target=work, args=(number,)) for number in range(3)]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(failures, [])
+        self.assertEqual(failures_in_threads(work, 3), [])
         self.assertEqual(mesh.check(), [])
 
 
