@@ -14,6 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/cases.h"
+
 namespace loft {
 namespace {
 
@@ -241,7 +243,7 @@ TEST(TrianglesMeet, IsTrueWhereASurfaceMeetsItself) {
 TEST(TrianglesMeet, HasTheExactAnswer) {
   int met = 0;
   int total = 0;
-  for_nasty_triangles(1200, [&](const Corners& p, const Corners& q) {
+  for_nasty_triangles(static_cast<int>(cases(1200)), [&](const Corners& p, const Corners& q) {
     const bool expected = oracle_triangles_meet(p, q);
     EXPECT_EQ(triangles_meet(p, q), expected);
     ++total;

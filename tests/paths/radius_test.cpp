@@ -7,6 +7,7 @@
 #include "paths/clearance.h"
 #include "paths/exact_distance.h"
 #include "paths/shortest.h"
+#include "tests/cases.h"
 #include "tests/overlay/boxes.h"
 #include "tests/paths/grown.h"
 
@@ -106,7 +107,8 @@ TEST(Radius, AgreesWithGrownObstacles) {
   int found = 0;
   int none = 0;
   const char* const more = std::getenv("LOFT_SOAK_DISCS");
-  const unsigned scenes = more == nullptr ? 12 : static_cast<unsigned>(std::atoi(more));
+  const unsigned scenes =
+      more == nullptr ? unsigned{cases(12)} : static_cast<unsigned>(std::atoi(more));
   for (unsigned seed = 0; seed < scenes; ++seed) {
     SCOPED_TRACE(seed);
     Clutter scene(seed, 10 + static_cast<int>(seed % 5) * 8);

@@ -15,6 +15,7 @@
 
 #include "mesh/check.h"
 #include "mesh/measure.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 
@@ -413,7 +414,7 @@ std::vector<Slice> random_stack(std::uint64_t seed) {
 Fill random_fill(std::uint64_t seed) { return seed % 4 < 2 ? Fill::even_odd : Fill::nonzero; }
 
 TEST(Reconstruct, AnyContoursMakeASolid) {
-  for (std::uint64_t seed = 0; seed < 400; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(400); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     expect_solid(random_stack(seed), {.fill = random_fill(seed)});
   }

@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "tests/app/streaming.h"
+#include "tests/cases.h"
 
 namespace loft::app {
 namespace {
@@ -262,12 +263,13 @@ TEST(Session, AReaderThatStartsBetweenEditsKnowsEachSlabOnce) {
   // A session: keeping edits takes a while, in which they are applied but not told.
   Running running(folder, {"stream", "--no-input", "--port", "0", "--session", "c"});
   const auto client = running.client();
-  for (int round = 0; round < 30; ++round) {
+  constexpr int rounds = cases(30);
+  for (int round = 0; round < rounds; ++round) {
     std::thread sender([&] {
       const auto poster = running.client();
       ASSERT_TRUE(poster->Post("/slices", stack(50, 100), "application/x-ndjson"));
     });
-    std::this_thread::sleep_for(std::chrono::milliseconds(round));
+    std::this_thread::sleep_for(std::chrono::milliseconds(30 * round / rounds));
     std::set<std::string> known;
     const int end = 100 * round + 50;
     int last = -1;

@@ -17,6 +17,7 @@
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/defect.h"
 #include "reconstruct/reconstruct.h"
+#include "tests/cases.h"
 #include "tests/reconstruct/solid.h"
 #include "tests/reconstruct/stacks.h"
 #include "tests/reconstruct/triangles.h"
@@ -223,7 +224,7 @@ TEST(Refine, TargetEdgeMakesGoodTriangles) {
 
 /// Random stacks, refined in every way, make valid solids as others do.
 TEST(Refine, AnyContoursMakeASolid) {
-  for (std::uint64_t seed = 0; seed < 60; ++seed) {
+  for (std::uint64_t seed = 0; seed < cases(60); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     std::mt19937_64 random(seed);
     std::vector<Slice> slices;
