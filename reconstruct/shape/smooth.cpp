@@ -279,9 +279,12 @@ class Smoothing {
     const double most = most_of_edge * length(minus(place(a), place(b)));
     Vec3 way = minus(straight, start);
     if (freedom > 0) {
-      const Vec3 bent = way_to(shapes_[piece], start, most, facing);
+      // Its ends were given way by as much: the smooth surface is further from it than from them.
+      const double given = (1 - freedom) / freedom * length(way);
+      const Vec3 bent = way_to(shapes_[piece], start, most + given, facing);
       way = along(bent, 1 - freedom, minus(way, bent));
     }
+    if (const double bend = length(way); bend > most) way = along({}, most / bend, way);
     if (!(length(way) > coarseness * height())) return none;
     node = contour_count_ + static_cast<std::uint32_t>(tiles_.inner.size());
     tiles_.inner.push_back({along(start, 1, way), VertexKind::steiner});

@@ -13,6 +13,7 @@
 #include <set>
 #include <utility>
 
+#include "cdt/effort.h"
 #include "mesh/measure.h"
 #include "mesh/vec3.h"
 #include "reconstruct/reconstruct.h"
@@ -270,6 +271,17 @@ TEST(Smooth, ASlantedRodStaysStraight) {
   EXPECT_TRUE(check(bent).empty());
   EXPECT_NEAR(volume(bent), 5 * 20 * std::sin(2 * pi / 40), 1e-6);
   EXPECT_EQ(bent.n_vertices(), 240);
+}
+
+/// Vertices in the middles of edges lie where their neighbours do, however thin the tiles are: else
+/// nearly all of a fan meets nearly all of it.
+TEST(Smooth, AFanOfThinTilesBendsEvenly) {
+  const std::vector<Slice> slices{{0, {stacks::circle(4000, 10)}}, {1, {stacks::circle(3, 9)}}};
+  const auto smooth = [&] {
+    const cdt::Effort effort(1'000'000);  // five times as many where its tiles meet
+    return reconstruct(slices, {.smooth = true, .threads = 1}).surface;
+  };
+  EXPECT_EQ(faults(smooth()), "");
 }
 
 TEST(Smooth, AnEditOfASliceChangesFourSlabs) {
