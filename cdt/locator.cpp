@@ -11,6 +11,14 @@ namespace {
 /// Below that a walk is short anyway.
 constexpr std::size_t fewest_vertices = 64;
 
+/// By how many halvings a box is higher than wide, halved; no more than `most` either way.
+int tilt_of(const Box& box, int most) {
+  const double width = std::max(box.high.x - box.low.x, 1e-300);
+  const double height = std::max(box.high.y - box.low.y, 1e-300);
+  const double tilt = (std::log2(height) - std::log2(width)) / 2;
+  return static_cast<int>(std::lround(std::clamp<double>(tilt, -most, most)));
+}
+
 }  // namespace
 
 void Locator::clear() {
@@ -49,21 +57,31 @@ void Locator::set_out(unsigned levels, Box box) {
     cells += std::size_t{1} << (2 * (level + 1));
   }
   cells_.assign(cells, VertexId::none());
-  const double columns = static_cast<double>(1U << levels_);
-  columns_per_unit_ = columns / std::max(box_.high.x - box_.low.x, 1e-300);
-  rows_per_unit_ = columns / std::max(box_.high.y - box_.low.y, 1e-300);
+  if (levels_ == 0) return;
+  tilt_ = tilt_of(box_, static_cast<int>(levels_));
+  const unsigned bits = column_bits(levels_ - 1);
+  columns_per_unit_ = std::exp2(bits) / std::max(box_.high.x - box_.low.x, 1e-300);
+  rows_per_unit_ = std::exp2(2 * levels_ - bits) / std::max(box_.high.y - box_.low.y, 1e-300);
+}
+
+unsigned Locator::column_bits(unsigned level) const {
+  const int half = static_cast<int>(level) + 1;
+  return static_cast<unsigned>(std::clamp(half - tilt_, 0, 2 * half));
 }
 
 /// Row by row; places outside the box count to its border.
 std::size_t Locator::cell(Point p, unsigned level) const {
-  const unsigned columns = 1U << levels_;
-  const auto index = [&](double place) {
-    return place < columns ? static_cast<unsigned>(std::max(place, 0.0)) : columns - 1;
+  const unsigned finest = column_bits(levels_ - 1);
+  const auto index = [](double place, unsigned bits) {
+    const std::size_t count = std::size_t{1} << bits;
+    return place < static_cast<double>(count) ? static_cast<std::size_t>(std::max(place, 0.0))
+                                              : count - 1;
   };
-  const unsigned x = index((p.x - box_.low.x) * columns_per_unit_);
-  const unsigned y = index((p.y - box_.low.y) * rows_per_unit_);
-  const unsigned shift = levels_ - 1 - level;
-  return first_[level] + ((std::size_t{y >> shift} << (level + 1)) | (x >> shift));
+  const std::size_t x = index((p.x - box_.low.x) * columns_per_unit_, finest);
+  const std::size_t y = index((p.y - box_.low.y) * rows_per_unit_, 2 * levels_ - finest);
+  const unsigned columns = column_bits(level);
+  const unsigned fewer_rows = 2 * (levels_ - 1 - level) - (finest - columns);
+  return first_[level] + ((y >> fewer_rows << columns) | (x >> (finest - columns)));
 }
 
 void Locator::add(VertexId v, Point p) {

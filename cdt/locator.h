@@ -13,9 +13,10 @@
 namespace loft::cdt {
 
 /// Remembers a vertex for each cell of a grid over the plane, and for each cell of coarser grids
-/// above it, so that a walk can begin near its goal: jump-and-walk (Mücke, Saias, Zhu 1996) with
-/// the jump looked up. It only ever suggests, so nothing depends on what it knows.
-/// Memory: about 3 bytes a vertex. Cost: constant; laying it out anew is amortised.
+/// above it, none of them much longer than wide, so that a walk can begin near its goal:
+/// jump-and-walk (Mücke, Saias, Zhu 1996) with the jump looked up. It only ever suggests, so
+/// nothing depends on what it knows. Memory: about 3 bytes a vertex. Cost: constant; laying it out
+/// anew is amortised.
 class Locator {
  public:
   void clear();
@@ -42,11 +43,14 @@ class Locator {
     return p.x >= box_.low.x && p.x <= box_.high.x && p.y >= box_.low.y && p.y <= box_.high.y;
   }
   [[nodiscard]] std::size_t cell(Point p, unsigned level) const;
+  /// The binary logarithm of how many columns a level has; it has 4^(level + 1) cells.
+  [[nodiscard]] unsigned column_bits(unsigned level) const;
 
   Box box_;
   double columns_per_unit_ = 0;
   double rows_per_unit_ = 0;
-  unsigned levels_ = 0;                           // the finest grid has 2^levels columns
+  unsigned levels_ = 0;                           // the finest grid has 4^levels cells
+  int tilt_ = 0;                                  // half the binary logarithm of height by width
   std::size_t laid_out_for_ = 0;                  // vertices
   std::array<std::size_t, most_levels> first_{};  // where a level's cells begin
   std::vector<VertexId> cells_;

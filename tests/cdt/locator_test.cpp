@@ -54,6 +54,22 @@ TEST(Locator, SuggestsWhatIsNear) {
   EXPECT_LT(sum / 1000, 3);  // the points are about one apart
 }
 
+/// Cells are not longer than wide, however long and thin the box of all is.
+TEST(Locator, SuggestsWhatIsNearInAColumnAndInARow) {
+  for (const bool is_row : {false, true}) {
+    auto points = random_points(10000, 11);
+    auto places = random_points(1000, 12);
+    for (auto* some : {&points, &places})
+      for (Point& p : *some) p = is_row ? Point{p.x * 10000, p.y} : Point{p.x, p.y * 10000};
+    Locator locator;
+    locator.lay_out(points, 10000);
+    double sum = 0;
+    for (std::size_t i = 1; i < places.size(); ++i)
+      sum += distance(places[i], points[locator.near(places[i]).index()]);
+    EXPECT_LT(sum / 1000, 300);  // the points are about 100 apart
+  }
+}
+
 TEST(Locator, KnowsWhatWasAddedLast) {
   const auto points = random_points(500, 4);
   Locator locator;
