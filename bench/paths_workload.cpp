@@ -280,6 +280,8 @@ void time_moves(const Arguments& arguments) {
   std::vector<overlay::RingId> rings;
   for (std::size_t i = 0; i < count; ++i) rings.push_back(overlay.insert(obstacles, boxes.next()));
   FreeSpace space(overlay, Expression(room) - obstacles);
+  const bool has_gaps = arguments.word_or(3, "") == "gaps";
+  if (has_gaps) space.keep_gaps();
   Durations edits;
   Durations follows;
   Durations all;

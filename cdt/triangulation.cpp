@@ -86,13 +86,21 @@ void Triangulation::end_edit() {
   if (is_recording_ && !is_in_batch_) sum_up_changes();
 }
 
+/// What counts is how a triangle was first touched.
 void Triangulation::sum_up_changes() {
   changes_.made.clear();
   changes_.unmade.clear();
-  std::ranges::stable_sort(touched_, {}, &Touch::triangle);
-  for (std::size_t i = 0; i < touched_.size(); ++i) {
-    const Touch& first = touched_[i];
-    if (i > 0 && touched_[i - 1].triangle == first.triangle) continue;
+  touched_at_.resize(std::max(touched_at_.size(), triangle_bound_));
+  std::size_t known = 0;
+  for (const Touch& touch : touched_) {
+    const std::uint32_t at = touched_at_[touch.triangle.index()];
+    if (at < known && touched_[at].triangle == touch.triangle) continue;
+    touched_at_[touch.triangle.index()] = static_cast<std::uint32_t>(known);
+    touched_[known++] = touch;
+  }
+  touched_.resize(known);
+  std::ranges::sort(touched_, {}, &Touch::triangle);
+  for (const Touch& first : touched_) {
     if (first.was_there) changes_.unmade.push_back(first.triangle);
     if (is_triangle(first.triangle)) changes_.made.push_back(first.triangle);
   }

@@ -600,6 +600,7 @@ class Triangulation {
 
   // Scratch memory of single operations, kept to spare allocations.
   std::vector<Touch> touched_;
+  std::vector<std::uint32_t> touched_at_;  // by triangle: where in touched_ it may be; as needed
   std::vector<VertexId> inserted_;
   std::vector<EdgeId> suspects_;
   std::vector<EdgeId> crossed_;
