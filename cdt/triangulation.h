@@ -388,6 +388,7 @@ class Triangulation {
   void check_known(ConstraintId id) const;
   void begin_edit();
   void end_edit();
+  void sort_touched();
   void sum_up_changes();
   [[nodiscard]] ConstraintId new_constraint();
   void describe(ConstraintId id, std::span<const VertexId> vertices, Ends ends);
@@ -600,6 +601,7 @@ class Triangulation {
 
   // Scratch memory of single operations, kept to spare allocations.
   std::vector<Touch> touched_;
+  std::vector<Touch> touched_before_;
   std::vector<std::uint32_t> touched_at_;  // by triangle: where in touched_ it may be; as needed
   std::vector<VertexId> inserted_;
   std::vector<EdgeId> suspects_;
