@@ -15,8 +15,9 @@ namespace loft::paths {
 /// no triangle twice, so it goes from part to part as the tree has it, straight to that of its
 /// goal, and leaves out all others: dead ends, and rooms behind one door.
 ///
-/// Built once for a state of the space, and worth it after some searches in that. Cost: O(triangles)
-/// to build, then for each search the parts between the goals and the root of the tree.
+/// Built once for a state of the space, and worth it after some searches in that. Cost:
+/// O(triangles) to build, then for each search the parts between the goals and the root of the
+/// tree.
 class DeadEnds {
  public:
   /// A search begins, for these goals. Builds if searches before it, in this state of the space,
