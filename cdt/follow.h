@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -106,17 +107,19 @@ class Follower {
     Part part{.number = static_cast<std::uint32_t>(parts_.size())};
     part_[start.index()] = part.number;
     front_.assign(1, start);
+    double furthest = -std::numeric_limits<double>::infinity();
     while (!front_.empty()) {
       const TriangleId t = front_.back();
       front_.pop_back();
-      if (mesh_->is_infinite(t))
-        part.infinite = t;
-      else
-        for (unsigned corner = 0; corner < 3; ++corner)
-          if (const EdgeId e = Triangulation::edge(t, corner); is_before(e, part.first))
-            part.first = e;
+      const bool is_infinite = mesh_->is_infinite(t);
+      if (is_infinite) part.infinite = t;
       for (unsigned corner = 0; corner < 3; ++corner) {
-        const TriangleId beyond = neighbour(Triangulation::edge(t, corner));
+        const EdgeId e = Triangulation::edge(t, corner);
+        if (!is_infinite && from(e).x >= furthest && is_before(e, part.first)) {
+          part.first = e;
+          furthest = from(e).x;
+        }
+        const TriangleId beyond = neighbour(e);
         if (part_[beyond.index()] != waiting) continue;
         part_[beyond.index()] = part.number;
         front_.push_back(beyond);

@@ -561,7 +561,7 @@ class Triangulation {
   void move_to(ConstraintId id, std::span<const Point> points);
   void replace(ConstraintId id, std::span<const Point> points);
   void move_in_place(ConstraintId id, std::span<const Point> points);
-  [[nodiscard]] bool is_plain(SegmentId s) const;
+  [[nodiscard]] EdgeId plain_edge(SegmentId s) const;
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
   void push_around(VertexId v);
   [[nodiscard]] bool has_moved(VertexId v) const {
@@ -624,6 +624,7 @@ class Triangulation {
   std::array<std::array<std::uint32_t, most_planned>, most_planned> tips_{};
   std::vector<Point> places_;
   std::vector<char> stays_;
+  std::vector<EdgeId> plain_;
   std::vector<std::uint32_t> still_;
   std::vector<std::pair<Point, Point>> edited_;
   Cavity left_;
