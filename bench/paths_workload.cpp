@@ -38,7 +38,7 @@ using paths::Status;
 constexpr const char* usage =
     "usage: paths_workload queries MESH SCEN REF      shortest paths, and channels pulled taut\n"
     "       paths_workload unreachable MESH SCEN      goals that no way leads to\n"
-    "       paths_workload move OBSTACLES STEPS       one of so many is somewhere else\n";
+    "       paths_workload move OBSTACLES STEPS [gaps]   one of so many is somewhere else\n";
 
 std::ifstream open_file(const std::string& name) {
   std::ifstream file(name);

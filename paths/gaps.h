@@ -18,7 +18,8 @@ class FreeSpace;
 ///
 /// A triangulation of its own has nothing but what blocks the way, and the feet: from each corner
 /// of an obstacle the foot of the perpendicular to what it sees on the other side, where that is
-/// nearest. So each narrow place on any way, between two corners, or a corner and a side, is an
+/// nearest: neither is anything between nearer, nor do the corner's own walls come nearer to the
+/// foot. So each narrowest place on any way, between two corners, or a corner and a side, is an
 /// edge here, as the disc over it is empty (compare Kallmann, "Dynamic and Robust Local Clearance
 /// Triangulations", 2014, which refines for the same end): a disc of radius r gets from one place
 /// to another if and only if its centre can stand at both and triangles lead there, over edges that
