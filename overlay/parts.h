@@ -112,7 +112,7 @@ struct Overlay::Parts {
   void gather_edges(const cdt::Changes& changes);
   void forget(Result& result);
   [[nodiscard]] bool may_border(EdgeId e) const {
-    return (bordering[e.index() / 3] >> e.index() % 3 & 1U) != 0;
+    return (unsigned{bordering[e.index() / 3]} >> e.index() % 3 & 1U) != 0;
   }
   void add_border(Result& result, EdgeId e);
   void take_border(Result& result, EdgeId e);
