@@ -19,6 +19,9 @@ class Arguments {
     if (i >= words_.size()) throw std::invalid_argument(usage_);
     return words_[i];
   }
+  [[nodiscard]] std::string word_or(std::size_t i, const char* otherwise) const {
+    return i < words_.size() ? words_[i] : otherwise;
+  }
   template <class Number>
   [[nodiscard]] Number number(std::size_t i) const {
     const std::string text = word(i);

@@ -37,19 +37,6 @@ constexpr const char* usage =
     "       cdt_workload poly6 FILE STEPS [CLEANUP]         hexagons come and go\n"
     "CLEANUP is ignored: removal always leaves what would be there without the constraint.\n";
 
-const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), result);
-if (error != std::errc() || end != text.data() + text.size())
-  throw std::invalid_argument(text + " is no number\n" + usage);
-return result;
-}
-[[nodiscard]] int number_or(std::size_t i, int otherwise) const {
-  return i < words_.size() ? number<int>(i) : otherwise;
-}
-
-private:
-std::vector<std::string> words_;
-};
-
 ConstraintId insert(Triangulation& mesh, const Outline& outline) {
   return mesh.insert(outline.points, outline.ends);
 }
@@ -251,7 +238,7 @@ void run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   try {
-    loft::bench::run(loft::bench::Arguments(argc, argv));
+    loft::bench::run({argc, argv, loft::bench::usage});
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
     return 2;

@@ -33,6 +33,8 @@ constexpr const char* usage =
     "       overlay_workload any FILE STEPS DX DY         each ring in turn by one step\n"
     "       overlay_workload map RINGS NAMES [REPS]       owners, overlaps, gaps, borders once "
     "each\n"
+    "       overlay_workload drag RINGS NAMES RING STEPS DX DY   one ring to and fro; what two "
+    "claim\n"
     "       overlay_workload points RINGS NAMES POINTS    who covers each\n"
     "       overlay_workload lines RINGS NAMES LINES      in pieces with owners, in and out "
     "again\n";
@@ -146,7 +148,7 @@ struct Map {
     if (names.size() != rings.size()) throw std::runtime_error("not a name a ring");
   }
 
-  void insert_into(Overlay& overlay) const {
+  std::vector<RingId> insert_into(Overlay& overlay) const {
     std::map<std::string, LayerId> layers;
     std::vector<Shape> shapes;
     for (std::size_t i = 0; i < rings.size(); ++i) {
@@ -154,9 +156,34 @@ struct Map {
       if (is_new) at->second = overlay.add_layer(names[i]);
       shapes.push_back({at->second, rings[i].points, rings[i].ends});
     }
-    overlay.insert(shapes);
+    return overlay.insert(shapes);
   }
 };
+
+/// The ring is a layer of its own. Its moves, and what more than one layer claims then, with its
+/// area.
+void time_drags(const Arguments& arguments) {
+  Map map(arguments);
+  const auto which = arguments.number<std::size_t>(3);
+  map.names.at(which) += " (dragged)";
+  Overlay overlay;
+  const RingId ring = map.insert_into(overlay)[which];
+  std::vector<Expression> all;
+  for (std::uint32_t l = 0; l < overlay.layer_count(); ++l) all.emplace_back(LayerId(l));
+  const ResultId twice = overlay.watch(overlay::at_least(2, all));
+  const cdt::Point by{arguments.number<double>(5), arguments.number<double>(6)};
+  Durations edits;
+  double sum = 0;
+  for (int step = 0; step < arguments.number<int>(4); ++step) {
+    const double sign = step % 100 < 50 ? 1 : -1;
+    edits.add(seconds_of([&] {
+      overlay.translate(ring, {sign * by.x, sign * by.y});
+      sum += overlay.area(twice).to_double();
+    }));
+  }
+  std::printf("median=%.1f p99=%.1f us, %zu points, sum of areas %.9f\n", edits.microseconds(0.5),
+              edits.microseconds(0.99), map.rings[which].points.size(), sum);
+}
 
 void time_map(const Arguments& arguments) {
   const Map map(arguments);
@@ -225,6 +252,7 @@ void run(const Arguments& arguments) {
   if (mode == "move") return time_moves(arguments, false);
   if (mode == "any") return time_moves(arguments, true);
   if (mode == "map") return time_map(arguments);
+  if (mode == "drag") return time_drags(arguments);
   if (mode == "points") return time_points(arguments);
   if (mode == "lines") return time_lines(arguments);
   throw std::invalid_argument(usage);

@@ -42,11 +42,12 @@ while [ "$round" -lt "$runs" ]; do
     run "$name" "$loft" unreachable "$1" "$2"
   done
   run obstacles "$loft" move 1000 5000
+  run gaps "$loft" move 1000 5000 gaps
 done
 
 # Lines: `MAP detour: N queries, median X us, p99 X us, mean X us; ... 0.1%: N of N`,
 # `MAP shortest|channel median=X mean=X p99=X us; ... longer=N of N, none=N`,
-# `MAP unreachable ... times=X; ...`, `obstacles step|jump median=X p99=X us; ...`.
+# `MAP unreachable ... times=X; ...`, `obstacles|gaps step|jump median=X p99=X us; ...`.
 awk '
 function median(key,   values, count, i, j, value) {
   count = split(all[key], values, " ")
@@ -64,7 +65,7 @@ function after(word,   at) {
 function note(key, value) { all[key] = all[key] " " value + 0 }
 function or_dash(value, format) { return value == "" ? "-" : sprintf(format, value) }
 function ratio(value, peer) { return peer == "" ? "-" : sprintf("%.3f", value / peer) }
-!($1 in known) { known[$1] = 1; if ($1 != "obstacles") names[++maps] = $1 }
+!($1 in known) { known[$1] = 1; if ($1 != "obstacles" && $1 != "gaps") names[++maps] = $1 }
 $2 == "detour:" && /queries/ { note($1 " peer", after(", mean ")); note($1 " peer longer", after("0.1%: ")) }
 $2 == "shortest" || $2 == "channel" {
   note($1 " " $2, after("mean="))
@@ -72,7 +73,10 @@ $2 == "shortest" || $2 == "channel" {
   note($1 " " $2 " worst", after("worst="))
 }
 $2 == "unreachable" { note($1 " unreachable", after("times=")) }
-$1 == "obstacles" { note($2, after("median=")); note($2 " p99", after("p99=")) }
+$1 == "obstacles" || $1 == "gaps" { note($1 " " $2, after("median=")); note($1 " " $2 " p99", after("p99=")) }
+function moves(of, title) {
+  printf "%s: median %.1f, p99 %.1f us; is somewhere else: %.1f, %.1f us\n", title, median(of " step"), median(of " step p99"), median(of " jump"), median(of " jump p99")
+}
 END {
   printf "%-18s %9s %9s %7s %9s %7s %8s %8s %8s %6s\n", "mean, us a query", "Detour", "shortest", "ratio", "channel", "ratio", "longer:", "Detour", "channel", "none*"
   for (m = 1; m <= maps; m++) {
@@ -81,5 +85,6 @@ END {
     printf "%-18s %9s %9.2f %7s %9.2f %7s %8s %8s %8d %6.2f\n", name, or_dash(peer, "%.2f"), median(name " shortest"), ratio(median(name " shortest"), peer), median(name " channel"), ratio(median(name " channel"), peer), "", or_dash(median(name " peer longer"), "%d"), median(name " channel longer"), median(name " unreachable")
   }
   print "longer: than the shortest by 0.1 %; none*: no way leads there, in times of locating a point"
-  printf "one of 1,000 obstacles moves a step: median %.1f, p99 %.1f us; is somewhere else: %.1f, %.1f us\n", median("step"), median("step p99"), median("jump"), median("jump p99")
+  moves("obstacles", "one of 1,000 obstacles moves a step")
+  moves("gaps", "the same, gaps kept for discs")
 }' "$log"

@@ -38,7 +38,7 @@ using paths::Status;
 constexpr const char* usage =
     "usage: paths_workload queries MESH SCEN REF      shortest paths, and channels pulled taut\n"
     "       paths_workload unreachable MESH SCEN      goals that no way leads to\n"
-    "       paths_workload move OBSTACLES STEPS       one of so many is somewhere else\n";
+    "       paths_workload move OBSTACLES STEPS [gaps]   one of so many is somewhere else\n";
 
 std::ifstream open_file(const std::string& name) {
   std::ifstream file(name);
@@ -280,6 +280,8 @@ void time_moves(const Arguments& arguments) {
   std::vector<overlay::RingId> rings;
   for (std::size_t i = 0; i < count; ++i) rings.push_back(overlay.insert(obstacles, boxes.next()));
   FreeSpace space(overlay, Expression(room) - obstacles);
+  const bool has_gaps = arguments.word_or(3, "") == "gaps";
+  if (has_gaps) space.keep_gaps();
   Durations edits;
   Durations follows;
   Durations all;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -82,11 +83,12 @@ class Follower {
   [[nodiscard]] Point from(EdgeId e) const { return mesh_->point(mesh_->from(e)); }
   [[nodiscard]] Point to(EdgeId e) const { return mesh_->point(mesh_->to(e)); }
 
-  /// Whether an edge starts further right, or as far and more clockwise. All edges here lead from
-  /// the rightmost corners of their triangles: those from one vertex are within half a turn.
-  [[nodiscard]] bool is_before(EdgeId a, EdgeId b) const {
-    if (mesh_->from(a) != mesh_->from(b)) return from(b) < from(a);
-    return orient(from(a), to(a), to(b)) > 0;
+  /// Whether an edge starts further right than any so far, or from the same vertex and more
+  /// clockwise: all from the rightmost vertex are within half a turn.
+  [[nodiscard]] bool is_before(EdgeId e, EdgeId first) const {
+    if (first.is_none()) return true;
+    if (mesh_->from(e) != mesh_->from(first)) return from(first) < from(e);
+    return orient(from(e), to(e), to(first)) > 0;
   }
 
   void gather_parts(std::span<const TriangleId> made) {
@@ -105,32 +107,25 @@ class Follower {
     Part part{.number = static_cast<std::uint32_t>(parts_.size())};
     part_[start.index()] = part.number;
     front_.assign(1, start);
+    double furthest = -std::numeric_limits<double>::infinity();
     while (!front_.empty()) {
       const TriangleId t = front_.back();
       front_.pop_back();
-      if (mesh_->is_infinite(t))
-        part.infinite = t;
-      else if (const EdgeId e = edge_from_right(t);
-               part.first.is_none() || is_before(e, part.first))
-        part.first = e;
+      const bool is_infinite = mesh_->is_infinite(t);
+      if (is_infinite) part.infinite = t;
       for (unsigned corner = 0; corner < 3; ++corner) {
-        const TriangleId beyond = neighbour(Triangulation::edge(t, corner));
+        const EdgeId e = Triangulation::edge(t, corner);
+        if (!is_infinite && from(e).x >= furthest && is_before(e, part.first)) {
+          part.first = e;
+          furthest = from(e).x;
+        }
+        const TriangleId beyond = neighbour(e);
         if (part_[beyond.index()] != waiting) continue;
         part_[beyond.index()] = part.number;
         front_.push_back(beyond);
       }
     }
     return part;
-  }
-
-  /// The edge from the rightmost corner of a finite triangle.
-  [[nodiscard]] EdgeId edge_from_right(TriangleId t) const {
-    EdgeId result = Triangulation::edge(t, 0);
-    for (unsigned corner = 1; corner < 3; ++corner) {
-      const EdgeId e = Triangulation::edge(t, corner);
-      if (from(result) < from(e)) result = e;
-    }
-    return result;
   }
 
   [[nodiscard]] TriangleId neighbour(EdgeId e) const {

@@ -59,8 +59,10 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
   const std::uint32_t count = constraint.segment_count;
   const auto n = static_cast<std::uint32_t>(points.size());
   stays_.assign(count, false);
+  plain_.assign(count, EdgeId::none());
   for (std::uint32_t i = 0; i < count; ++i) {
-    stays_[i] = is_plain(SegmentId(first + i));
+    plain_[i] = plain_edge(SegmentId(first + i));
+    stays_[i] = !plain_[i].is_none();
     if (!stays_[i]) take_off(SegmentId(first + i));
   }
   settle_loose();
@@ -85,7 +87,9 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     const Segment& segment = segments_[first + i];
     if (!stays_[i] || still_.size() == n) continue;
     const SegmentId s(first + i);
-    const EdgeId e = edge_between(segment.from, segment.to);
+    const EdgeId known = plain_[i];
+    const bool is_there = from(known) == segment.from && to(known) == segment.to;
+    const EdgeId e = is_there ? known : edge_between(segment.from, segment.to);
     if (!e.is_none() && !settle_piece(e, s)) crowded_.push_back(s);
   }
 
@@ -135,12 +139,13 @@ void Triangulation::push_around(VertexId v) {
   } while (e != first);
 }
 
-/// Whether a segment is one edge that nothing else runs along.
-bool Triangulation::is_plain(SegmentId s) const {
+/// The edge that a segment is, if it is one that nothing else runs along; none otherwise.
+EdgeId Triangulation::plain_edge(SegmentId s) const {
   const Segment& segment = this->segment(s);
   const EdgeId e = edge_between(segment.from, segment.to);
-  return !e.is_none() && segment.from != segment.to && passages(e).size() == 1 &&
-         passages(e)[0].segment() == s;
+  const bool is_plain = !e.is_none() && segment.from != segment.to && passages(e).size() == 1 &&
+                        passages(e)[0].segment() == s;
+  return is_plain ? e : EdgeId::none();
 }
 
 /// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise, no

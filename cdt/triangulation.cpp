@@ -2,10 +2,12 @@
 #include "cdt/triangulation.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "cdt/blocks.h"
 #include "cdt/each_once.h"
@@ -86,13 +88,40 @@ void Triangulation::end_edit() {
   if (is_recording_ && !is_in_batch_) sum_up_changes();
 }
 
+/// By triangle: eight bits at a time where there are many, and no more than ids have.
+void Triangulation::sort_touched() {
+  constexpr std::size_t few = 256;
+  if (touched_.size() < few) {
+    std::ranges::sort(touched_, {}, &Touch::triangle);
+    return;
+  }
+  touched_before_.resize(touched_.size());
+  for (unsigned shift = 0; triangle_bound_ >> shift != 0; shift += 8) {
+    std::array<std::uint32_t, 256> place{};
+    const auto digit = [&](const Touch& touch) { return touch.triangle.index() >> shift & 255U; };
+    for (const Touch& touch : touched_) ++place[digit(touch)];
+    std::uint32_t sum = 0;
+    for (std::uint32_t& count : place) sum += std::exchange(count, sum);
+    for (const Touch& touch : touched_) touched_before_[place[digit(touch)]++] = touch;
+    std::swap(touched_, touched_before_);
+  }
+}
+
+/// What counts is how a triangle was first touched.
 void Triangulation::sum_up_changes() {
   changes_.made.clear();
   changes_.unmade.clear();
-  std::ranges::stable_sort(touched_, {}, &Touch::triangle);
-  for (std::size_t i = 0; i < touched_.size(); ++i) {
-    const Touch& first = touched_[i];
-    if (i > 0 && touched_[i - 1].triangle == first.triangle) continue;
+  touched_at_.resize(std::max(touched_at_.size(), triangle_bound_));
+  std::size_t known = 0;
+  for (const Touch& touch : touched_) {
+    const std::uint32_t at = touched_at_[touch.triangle.index()];
+    if (at < known && touched_[at].triangle == touch.triangle) continue;
+    touched_at_[touch.triangle.index()] = static_cast<std::uint32_t>(known);
+    touched_[known++] = touch;
+  }
+  touched_.resize(known);
+  sort_touched();
+  for (const Touch& first : touched_) {
     if (first.was_there) changes_.unmade.push_back(first.triangle);
     if (is_triangle(first.triangle)) changes_.made.push_back(first.triangle);
   }

@@ -388,6 +388,7 @@ class Triangulation {
   void check_known(ConstraintId id) const;
   void begin_edit();
   void end_edit();
+  void sort_touched();
   void sum_up_changes();
   [[nodiscard]] ConstraintId new_constraint();
   void describe(ConstraintId id, std::span<const VertexId> vertices, Ends ends);
@@ -560,7 +561,7 @@ class Triangulation {
   void move_to(ConstraintId id, std::span<const Point> points);
   void replace(ConstraintId id, std::span<const Point> points);
   void move_in_place(ConstraintId id, std::span<const Point> points);
-  [[nodiscard]] bool is_plain(SegmentId s) const;
+  [[nodiscard]] EdgeId plain_edge(SegmentId s) const;
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
   void push_around(VertexId v);
   [[nodiscard]] bool has_moved(VertexId v) const {
@@ -600,6 +601,8 @@ class Triangulation {
 
   // Scratch memory of single operations, kept to spare allocations.
   std::vector<Touch> touched_;
+  std::vector<Touch> touched_before_;
+  std::vector<std::uint32_t> touched_at_;  // by triangle: where in touched_ it may be; as needed
   std::vector<VertexId> inserted_;
   std::vector<EdgeId> suspects_;
   std::vector<EdgeId> crossed_;
@@ -621,6 +624,7 @@ class Triangulation {
   std::array<std::array<std::uint32_t, most_planned>, most_planned> tips_{};
   std::vector<Point> places_;
   std::vector<char> stays_;
+  std::vector<EdgeId> plain_;
   std::vector<std::uint32_t> still_;
   std::vector<std::pair<Point, Point>> edited_;
   Cavity left_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <iterator>
 #include <sstream>
+#include <utility>
 
 namespace loft::overlay {
 
@@ -71,11 +72,49 @@ void Overlay::Parts::follow() {
   const cdt::Changes& changes = mesh.changes();
   follower.follow(changes);
   covers.grow(mesh.triangle_bound(), windings.cover_count());
-  for (const TriangleId t : changes.unmade) covers.set(t, nothing);
+  for (const TriangleId t : changes.unmade)
+    if (!mesh.is_triangle(t)) covers.set(t, nothing);
   for (const TriangleId t : changes.made) cover_anew(t);
   for (const TriangleId t : follower.changed()) cover_anew(t);
+  gather_edges(changes);
+  for (auto& result : results)
+    if (result) forget(*result);
   for (auto& result : results)
     if (result) update(*result);
+}
+
+/// Where borders may have changed, of any result.
+void Overlay::Parts::gather_edges(const cdt::Changes& changes) {
+  bordering.resize(mesh.triangle_bound());
+  gone.clear();
+  for (const TriangleId t : changes.unmade) {
+    const unsigned corners = std::exchange(bordering[t.index()], std::uint8_t{0});
+    for (unsigned corner = 0; corners >> corner != 0; ++corner)
+      if ((corners >> corner & 1U) != 0) gone.push_back(Triangulation::edge(t, corner));
+  }
+  doubtful.clear();
+  constexpr std::uint8_t is_new = 1U << 3;
+  const auto for_each_new = [&](auto visit) {
+    for (const TriangleId t : changes.made) visit(t);
+    for (const TriangleId t : follower.changed()) visit(t);
+  };
+  for_each_new([&](TriangleId t) { bordering[t.index()] |= is_new; });
+  for_each_new([&](TriangleId t) {
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(t, corner);
+      const EdgeId twin = mesh.twin(e);
+      const bool has_turn =
+          e < twin || (bordering[Triangulation::triangle(twin).index()] & is_new) == 0;
+      if (mesh.is_constrained(e) && has_turn) doubtful.push_back(e);
+    }
+  });
+  for_each_new([&](TriangleId t) { bordering[t.index()] &= static_cast<std::uint8_t>(~is_new); });
+}
+
+/// Takes the borders of triangles out that are no more.
+void Overlay::Parts::forget(Result& result) {
+  result.change = {};
+  for (const EdgeId e : gone) take_border(result, e);
 }
 
 void Overlay::Parts::cover_anew(TriangleId t) { covers.set(t, windings.cover(follower[t])); }
@@ -83,6 +122,7 @@ void Overlay::Parts::cover_anew(TriangleId t) { covers.set(t, windings.cover(fol
 /// Everything from nothing, as after edits that are as large as all there is.
 void Overlay::Parts::rebuild() {
   flood_again();
+  bordering.assign(mesh.triangle_bound(), 0);
   for (auto& result : results) {
     if (!result) continue;
     result->change.gone.assign(result->border.edges().begin(), result->border.edges().end());
@@ -124,14 +164,13 @@ void Overlay::Parts::check_truths(Result& result, std::span<const CoverId> some)
 
 void Overlay::Parts::update(Result& result) {
   learn_truths(result);
-  result.change = {};
-  const cdt::Changes& changes = mesh.changes();
-  for (const TriangleId t : changes.unmade)
-    for (unsigned corner = 0; corner < 3; ++corner)
-      take_border(result, Triangulation::edge(t, corner));
-  for (const TriangleId t : changes.made) check_borders(result, t);
-  for (const TriangleId t : follower.changed()) check_borders(result, t);
+  for (const EdgeId e : doubtful) check_borders(result, e);
   sum_up(result);
+}
+
+void Overlay::Parts::add_border(Result& result, EdgeId e) {
+  result.border.add(border_edge(mesh, e));
+  bordering[Triangulation::triangle(e).index()] |= static_cast<std::uint8_t>(1U << e.index() % 3);
 }
 
 void Overlay::Parts::take_border(Result& result, EdgeId e) {
@@ -141,27 +180,30 @@ void Overlay::Parts::take_border(Result& result, EdgeId e) {
 /// Whether an edge is on the border may have changed.
 void Overlay::Parts::check_border(Result& result, EdgeId e) {
   const bool is_border = region(result).has_border(e);
+  if (!is_border && !may_border(e)) return;
   if (is_border == result.border.has(e)) return;
   if (!is_border) return take_border(result, e);
-  const BorderEdge edge = border_edge(mesh, e);
-  result.border.add(edge);
-  result.change.come.push_back(edge);
+  add_border(result, e);
+  result.change.come.push_back(result.border.edges().back());
+}
+
+void Overlay::Parts::check_borders(Result& result, EdgeId e) {
+  check_border(result, e);
+  check_border(result, mesh.twin(e));
 }
 
 /// Covers differ across constrained edges alone.
 void Overlay::Parts::check_borders(Result& result, TriangleId t) {
-  for (unsigned corner = 0; corner < 3; ++corner) {
-    const EdgeId e = Triangulation::edge(t, corner);
-    if (!mesh.is_constrained(e)) continue;
-    check_border(result, e);
-    check_border(result, mesh.twin(e));
-  }
+  for (unsigned corner = 0; corner < 3; ++corner)
+    if (const EdgeId e = Triangulation::edge(t, corner); mesh.is_constrained(e))
+      check_borders(result, e);
 }
 
 /// All of a result's border, which is in `come` then, as what there was is in `gone`.
 void Overlay::Parts::build_border(Result& result) {
   result.border.clear();
   result.change.come.clear();
+  bordering.resize(mesh.triangle_bound());
   const Regions where = region(result);
   for (std::uint32_t c = 0; c < result.is_in.size(); ++c) {
     if (result.is_in[c] == 0) continue;
@@ -169,7 +211,7 @@ void Overlay::Parts::build_border(Result& result) {
       for (unsigned corner = 0; corner < 3; ++corner) {
         const EdgeId e = Triangulation::edge(t, corner);
         if (where.right_of(e) != 0) continue;
-        result.border.add(border_edge(mesh, e));
+        add_border(result, e);
       }
     });
   }

@@ -71,6 +71,9 @@ struct Overlay::Parts {
   cdt::Follower<WindingId, Cross> follower;
   ListsByCover covers;
   std::vector<std::optional<Result>> results;
+  std::vector<std::uint8_t> bordering;  // by triangle: corners whose edges may border a result
+  std::vector<EdgeId> gone;             // of one edit: of triangles that are no more, bordering
+  std::vector<EdgeId> doubtful;         // and constrained ones, on either side of what changed
   bool is_in_batch = false;
   std::size_t revision = 0;
 
@@ -106,8 +109,15 @@ struct Overlay::Parts {
   void learn_truths(Result& result);
   void check_truths(Result& result, std::span<const CoverId> some);
   void update(Result& result);
+  void gather_edges(const cdt::Changes& changes);
+  void forget(Result& result);
+  [[nodiscard]] bool may_border(EdgeId e) const {
+    return (unsigned{bordering[e.index() / 3]} >> e.index() % 3 & 1U) != 0;
+  }
+  void add_border(Result& result, EdgeId e);
   void take_border(Result& result, EdgeId e);
   void check_border(Result& result, EdgeId e);
+  void check_borders(Result& result, EdgeId e);
   void check_borders(Result& result, cdt::TriangleId t);
   void build_border(Result& result);
   void sum_up(Result& result);

@@ -53,7 +53,7 @@ class FreeSpace {
   /// anything is asked; if one was left out, all is built anew.
   void follow();
   /// From now on the gaps between obstacles are kept, too, for queries with a radius above 0. Cost:
-  /// a triangulation of its own, of what blocks the way; an edit takes some four times as long.
+  /// a triangulation of its own, of what blocks the way; an edit takes two to three times as long.
   void keep_gaps();
   /// None if they are not kept.
   [[nodiscard]] const Gaps* gaps() const { return gaps_.get(); }

@@ -7,8 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "cdt/each_once.h"
 #include "cdt/predicates.h"
 #include "paths/corners.h"
+#include "paths/directions.h"
 #include "paths/distance.h"
 #include "paths/exact_distance.h"
 #include "paths/free_space.h"
@@ -22,6 +24,18 @@ namespace {
 
 /// As far as a corner looks for what it is nearest to, in triangles.
 constexpr int furthest_look = 64;
+
+/// Whether q, on the line ab, is the foot of the perpendicular from p there, as foot_on() has it.
+/// Mostly that is clear before it is rounded.
+[[nodiscard]] bool is_foot_of(Point p, Point a, Point b, Point q, double length) {
+  constexpr double near = 0x1p-30;
+  const Direction along{b.x - a.x, b.y - a.y};
+  const double off = std::abs(dot({p.x - q.x, p.y - q.y}, along)) / length_of(along);
+  const double size = std::max({std::abs(q.x), std::abs(q.y), length});
+  if (off > 0x1p-20 * length + 0x1p-40 * size) return false;
+  if (off <= near / 2 * length && size <= 0x1p14 * length) return true;
+  return distance_between(foot_on(p, a, b), q) <= near * length;
+}
 
 }  // namespace
 
@@ -103,13 +117,8 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
   come_.clear();
   for (const TriangleId t : unmade)
     for (unsigned corner = 0; corner < 3; ++corner) take_out(Triangulation::edge(t, corner));
-  for (const TriangleId t : touched) {
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const EdgeId e = Triangulation::edge(t, corner);
-      check(space, e);
-      check(space, space.mesh().twin(e));
-    }
-  }
+  for (const TriangleId t : touched)
+    for (unsigned corner = 0; corner < 3; ++corner) check(space, Triangulation::edge(t, corner));
   keep_common();
   if (gone_.empty() && come_.empty()) return;
   mesh_.begin_batch();
@@ -119,19 +128,7 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
   }
   for (Edit& edit : come_) lay(edit);
   mesh_.end_batch();
-  free_.follow(mesh_.changes());
-  made_ = mesh_.changes().made;
-  made_.insert(made_.end(), free_.changed().begin(), free_.changed().end());
-  take_over();
-  mesh_.begin_batch();
-  remove_idle_feet(made_);
-  mesh_.end_batch();
-  std::vector<TriangleId> made = made_;
-  free_.follow(mesh_.changes());
-  made_ = mesh_.changes().made;
-  made_.insert(made_.end(), free_.changed().begin(), free_.changed().end());
-  take_over();
-  made_.insert(made_.end(), made.begin(), made.end());
+  take_over_edit();
   settle();
 }
 
@@ -139,19 +136,20 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
 void Gaps::take_out(EdgeId e) {
   if (e.index() >= wall_of_.size() || wall_of_[e.index()].is_none()) return;
   const ConstraintId c = std::exchange(wall_of_[e.index()], ConstraintId::none());
-  const std::vector<Point> points = mesh_.points(c);
-  gone_.push_back({points[0], points[1], walls_[c.index()], e, c});
+  const cdt::Segment& wall = mesh_.segments(c)[0];
+  gone_.push_back({mesh_.point(wall.from), mesh_.point(wall.to), walls_[c.index()], e, c});
 }
 
-/// Whether an edge has a wall may have changed.
+/// Whether an edge, or its twin, has a wall may have changed.
 void Gaps::check(const FreeSpace& space, EdgeId e) {
   const Triangulation& mesh = space.mesh();
   if (mesh.from(e) == Triangulation::infinite || mesh.to(e) == Triangulation::infinite) return;
-  if (mesh.point(mesh.to(e)) < mesh.point(mesh.from(e))) return;
-  const bool is_there = !wall_of_[e.index()].is_none();
+  if (mesh.point(mesh.to(e)) < mesh.point(mesh.from(e))) e = mesh.twin(e);
+  const ConstraintId known = wall_of_[e.index()];
+  if (!mesh.is_constrained(e) && known.is_none()) return;
   if (!is_blocked(space, e)) return take_out(e);
   const Edit now = wall_at(space, e);
-  if (is_there && walls_[wall_of_[e.index()].index()] == now.wall) return;
+  if (!known.is_none() && walls_[known.index()] == now.wall) return;
   take_out(e);
   const bool is_listed =
       std::ranges::any_of(come_, [&](const Edit& other) { return other.edge == e; });
@@ -189,88 +187,136 @@ void Gaps::remove_feet(ConstraintId c) {
   std::vector<VertexId> feet;
   for (const EdgeId e : mesh_.pieces(c))
     if (is_foot(mesh_.to(e))) feet.push_back(mesh_.to(e));
-  for (const VertexId v : feet) {
-    is_foot_[v.index()] = false;
-    mesh_.remove(v);
-  }
+  for (const VertexId v : feet) remove_foot(v);
 }
 
-/// Feet until there are no new ones.
+/// What was edited is in made_ then, with all that belongs to it.
+void Gaps::take_over_edit() {
+  free_.follow(mesh_.changes());
+  made_.assign(mesh_.changes().made.begin(), mesh_.changes().made.end());
+  made_.insert(made_.end(), free_.changed().begin(), free_.changed().end());
+  take_over();
+}
+
+/// Takes out feet that are idle, and puts in others until there are no new ones.
 void Gaps::settle() {
+  find_idle_feet();
   for (int round = 0; round < furthest_look; ++round) {
-    feet_.clear();
-    find_feet(made_);
-    std::ranges::sort(feet_);
-    feet_.erase(std::unique(feet_.begin(), feet_.end()), feet_.end());
-    if (feet_.empty()) return;
+    find_feet();
+    if (idle_.empty() && feet_.empty()) return;
     mesh_.begin_batch();
-    for (const Point& p : feet_) {
-      if (mesh_.locate(p).kind == cdt::Location::Kind::vertex) continue;
-      const VertexId v = mesh_.insert(p);
-      if (v.index() >= is_foot_.size()) is_foot_.resize(v.index() + 1);
-      is_foot_[v.index()] = true;
-    }
+    for (const VertexId v : idle_) remove_foot(v);
+    for (const Point& p : feet_) insert_foot(p);
     mesh_.end_batch();
-    free_.follow(mesh_.changes());
-    made_ = mesh_.changes().made;
-    take_over();
+    idle_.clear();
+    take_over_edit();
   }
 }
 
-void Gaps::find_feet(std::span<const TriangleId> made) {
-  for (const TriangleId t : made) {
-    if (!mesh_.is_triangle(t) || !is_free(t)) continue;
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const EdgeId e = Triangulation::edge(t, corner);
-      if (is_foot(mesh_.from(e))) continue;
-      find_foot(mesh_.point(mesh_.from(e)), Triangulation::next(e), 0);
+void Gaps::remove_foot(VertexId v) {
+  is_foot_[v.index()] = false;
+  mesh_.remove(v);
+}
+
+void Gaps::insert_foot(Point p) {
+  const std::size_t known = mesh_.vertex_count();
+  const VertexId v = mesh_.insert(p);
+  if (mesh_.vertex_count() == known) return mesh_.remove(v);
+  if (v.index() >= is_foot_.size()) is_foot_.resize(v.index() + 1);
+  is_foot_[v.index()] = true;
+}
+
+void Gaps::find_feet() {
+  feet_.clear();
+  for (const VertexId v : around_)
+    if (mesh_.is_vertex(v) && !is_foot(v)) look_around(v);
+  cdt::keep_each_once(feet_);
+}
+
+/// Looks from a corner over what is free there, where that is more than half a turn: else one of
+/// the walls that bound it comes nearer to any side. Through triangles that were made, or all where
+/// the walls are new.
+void Gaps::look_around(VertexId v) {
+  const EdgeId first = mesh_.edge(v);
+  EdgeId e = first;
+  do {
+    const EdgeId last = corner(e);
+    if (!last.is_none() && beyond(e).is_none()) {
+      const Sight sight{mesh_.point(v), along_wall(e, v), along_wall(Triangulation::prev(last), v)};
+      const bool is_all_new = is_made(e) || is_made(last);
+      for (EdgeId one = e;; one = mesh_.rotated(one)) {
+        if (is_all_new || is_made(one)) find_foot(sight, Triangulation::next(one), 0);
+        if (one == last) break;
+      }
     }
-  }
+    e = mesh_.rotated(e);
+  } while (e != first);
 }
 
-/// Beyond an edge, seen from p, on its left: a wall there, as long as nothing else is nearer: the
-/// disc over the way to the foot can only be empty while the perpendicular to each edge between
-/// meets that.
-void Gaps::find_foot(Point p, EdgeId e, int depth) {
+/// From one end of the whole wall along an edge.
+Direction Gaps::along_wall(EdgeId e, VertexId end) const {
+  const cdt::Segment& wall = mesh_.segment(mesh_.passages(e)[0].segment());
+  const Point from = mesh_.point(end);
+  const Point to = mesh_.point(wall.from == end ? wall.to : wall.from);
+  const double length = distance_between(from, to);
+  return {(to.x - from.x) / length, (to.y - from.y) / length};
+}
+
+/// Beyond an edge, seen from its left: a wall there, as long as nothing else is nearer: the disc
+/// over the way to the foot can only be empty while the perpendicular to each edge between meets
+/// that, and while no wall from where one looks comes nearer to the foot.
+void Gaps::find_foot(const Sight& sight, EdgeId e, int depth) {
+  const Point p = sight.from;
   const Point a = mesh_.point(mesh_.from(e));
   const Point b = mesh_.point(mesh_.to(e));
   if (depth == furthest_look || !has_foot_between(p, a, b)) return;
+  const auto towards = [&](Point to) { return Direction{to.x - p.x, to.y - p.y}; };
+  if (sight.is_narrower_between(towards(a), towards(b))) return;
   const EdgeId twin = beyond(e);
   if (!twin.is_none()) {
-    find_foot(p, Triangulation::next(twin), depth + 1);
-    find_foot(p, Triangulation::prev(twin), depth + 1);
+    find_foot(sight, Triangulation::next(twin), depth + 1);
+    find_foot(sight, Triangulation::prev(twin), depth + 1);
     return;
   }
-  if (!mesh_.is_constrained(e)) return;
+  const Direction straight{b.y - a.y, a.x - b.x};
+  if (!mesh_.is_constrained(e) || sight.is_narrower_between(straight, straight)) return;
   const cdt::Segment& side = mesh_.segment(mesh_.passages(e)[0].segment());
   const Point foot = foot_on(p, mesh_.point(side.from), mesh_.point(side.to));
   if (foot != a && foot != b && foot != p) feet_.push_back(foot);
 }
 
+/// Whether one of the walls clearly comes nearer to all that is seen between two directions: then
+/// there are narrower gaps beside.
+bool Gaps::Sight::is_narrower_between(Direction a, Direction b) const {
+  constexpr double clearly = 0x1p-20;
+  const auto comes_nearer = [](Direction wall, Direction to) {
+    return dot(wall, to) > clearly * (std::abs(to.x) + std::abs(to.y));
+  };
+  return (comes_nearer(first, a) && comes_nearer(first, b)) ||
+         (comes_nearer(last, a) && comes_nearer(last, b));
+}
+
 /// Feet from which no gap leads on any more.
-void Gaps::remove_idle_feet(std::span<const TriangleId> made) {
-  std::vector<VertexId> idle;
-  for (const TriangleId t : made) {
+void Gaps::find_idle_feet() {
+  idle_.clear();
+  for (const TriangleId t : made_) {
     if (!mesh_.is_triangle(t)) continue;
     for (unsigned corner = 0; corner < 3; ++corner) {
       const VertexId v = mesh_.from(Triangulation::edge(t, corner));
-      if (!is_foot(v)) continue;
-      bool is_idle = true;
-      EdgeId e = mesh_.edge(v);
-      const EdgeId first = e;
-      do {
-        is_idle = is_idle && (beyond(e).is_none() || std::isinf(width(e)));
-        e = mesh_.rotated(e);
-      } while (e != first && is_idle);
-      if (is_idle) idle.push_back(v);
+      if (is_foot(v) && is_idle(v)) idle_.push_back(v);
     }
   }
-  std::ranges::sort(idle);
-  idle.erase(std::unique(idle.begin(), idle.end()), idle.end());
-  for (const VertexId v : idle) {
-    is_foot_[v.index()] = false;
-    mesh_.remove(v);
-  }
+  cdt::keep_each_once(idle_);
+}
+
+bool Gaps::is_idle(VertexId foot) const {
+  const EdgeId first = mesh_.edge(foot);
+  EdgeId e = first;
+  do {
+    if (!beyond(e).is_none() && std::isfinite(width(e))) return false;
+    e = mesh_.rotated(e);
+  } while (e != first);
+  return true;
 }
 
 /// Sides, widths and corners of what was made.
@@ -278,8 +324,16 @@ void Gaps::take_over() {
   beyond_.resize(mesh_.edge_bound());
   widths_.resize(mesh_.edge_bound());
   corners_.resize(mesh_.edge_bound());
+  made_in_.resize(mesh_.triangle_bound());
   is_around_.resize(mesh_.vertex_bound());
   around_.clear();
+  constexpr double unknown = -1;
+  ++round_;
+  for (const TriangleId t : made_) {
+    made_in_[t.index()] = round_;
+    for (unsigned corner = 0; corner < 3; ++corner)
+      widths_[Triangulation::edge(t, corner).index()] = unknown;
+  }
   for (const TriangleId t : made_) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(t, corner);
@@ -288,7 +342,8 @@ void Gaps::take_over() {
           is_free(t) && is_free(Triangulation::triangle(twin)) && !mesh_.is_constrained(e);
       beyond_[e.index()] = is_open ? twin : EdgeId::none();
       beyond_[twin.index()] = is_open ? e : EdgeId::none();
-      if (is_open) widths_[e.index()] = widths_[twin.index()] = gap(e);
+      if (is_open && widths_[e.index()] == unknown)
+        widths_[e.index()] = widths_[twin.index()] = gap(e);
       corners_[e.index()] = EdgeId::none();
       const VertexId v = mesh_.from(e);
       if (v == Triangulation::infinite || is_around_[v.index()]) continue;
@@ -320,8 +375,8 @@ double Gaps::gap(EdgeId e) const {
   if (is_foot(p) && is_foot(q)) return std::numeric_limits<double>::infinity();
   if (is_foot(p)) std::swap(p, q);
   const cdt::Segment& side = mesh_.segment(side_with(q));
-  const Point foot = foot_on(mesh_.point(p), mesh_.point(side.from), mesh_.point(side.to));
-  const bool is_its_foot = distance_between(foot, mesh_.point(q)) <= 0x1p-30 * length;
+  const bool is_its_foot = is_foot_of(mesh_.point(p), mesh_.point(side.from), mesh_.point(side.to),
+                                      mesh_.point(q), length);
   return is_its_foot ? length : std::numeric_limits<double>::infinity();
 }
 

@@ -8,6 +8,7 @@
 
 #include "cdt/follow.h"
 #include "cdt/triangulation.h"
+#include "paths/directions.h"
 
 namespace loft::paths {
 
@@ -17,7 +18,8 @@ class FreeSpace;
 ///
 /// A triangulation of its own has nothing but what blocks the way, and the feet: from each corner
 /// of an obstacle the foot of the perpendicular to what it sees on the other side, where that is
-/// nearest. So each narrow place on any way, between two corners, or a corner and a side, is an
+/// nearest: neither is anything between nearer, nor do the corner's own walls come nearer to the
+/// foot. So each narrowest place on any way, between two corners, or a corner and a side, is an
 /// edge here, as the disc over it is empty (compare Kallmann, "Dynamic and Robust Local Clearance
 /// Triangulations", 2014, which refines for the same end): a disc of radius r gets from one place
 /// to another if and only if its centre can stand at both and triangles lead there, over edges that
@@ -84,6 +86,14 @@ class Gaps {
       return from == other.from && to == other.to && wall == other.wall;
     }
   };
+  /// What is seen from a corner: between two walls, the first one clockwise.
+  struct Sight {
+    cdt::Point from;
+    Direction first;
+    Direction last;
+
+    [[nodiscard]] bool is_narrower_between(Direction a, Direction b) const;
+  };
 
   [[nodiscard]] bool is_passable_exactly(cdt::EdgeId e, double radius) const;
   [[nodiscard]] Edit wall_at(const FreeSpace& space, cdt::EdgeId e) const;
@@ -94,9 +104,18 @@ class Gaps {
   void lay(Edit& edit);
   void remove_feet(cdt::ConstraintId c);
   void settle();
-  void find_feet(std::span<const cdt::TriangleId> made);
-  void find_foot(cdt::Point p, cdt::EdgeId e, int depth);
-  void remove_idle_feet(std::span<const cdt::TriangleId> made);
+  void find_feet();
+  void look_around(cdt::VertexId v);
+  [[nodiscard]] Direction along_wall(cdt::EdgeId e, cdt::VertexId end) const;
+  void find_foot(const Sight& sight, cdt::EdgeId e, int depth);
+  [[nodiscard]] bool is_made(cdt::EdgeId e) const {
+    return made_in_[cdt::Triangulation::triangle(e).index()] == round_;
+  }
+  void find_idle_feet();
+  [[nodiscard]] bool is_idle(cdt::VertexId foot) const;
+  void insert_foot(cdt::Point p);
+  void remove_foot(cdt::VertexId v);
+  void take_over_edit();
   void take_over();
   [[nodiscard]] double gap(cdt::EdgeId e) const;
   [[nodiscard]] cdt::SegmentId side_with(cdt::VertexId foot) const;
@@ -114,7 +133,10 @@ class Gaps {
   std::vector<Edit> gone_;
   std::vector<Edit> come_;
   std::vector<cdt::Point> feet_;
+  std::vector<cdt::VertexId> idle_;
   std::vector<cdt::TriangleId> made_;
+  std::vector<std::uint64_t> made_in_;  // by triangle: which take_over() had it in made_ last
+  std::uint64_t round_ = 0;
   std::vector<cdt::VertexId> around_;
   std::vector<bool> is_around_;
 };

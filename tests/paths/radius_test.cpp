@@ -281,8 +281,30 @@ TEST(Radius, LongerForALargerDiscAndTheSameBothWays) {
   }
 }
 
+TEST(Radius, ACornerHasAFootOnlyWhereItsWallsDoNotComeNearer) {
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  const LayerId things = overlay.add_layer("things");
+  overlay.insert(room, box(0, 0, 100, 100));
+  overlay.insert(things, std::vector<Point>{{50, 30}, {70, 50}, {50, 70}, {30, 50}});
+  FreeSpace space(overlay, overlay::Expression(room) - things);
+  space.keep_gaps();
+  const Gaps& gaps = *space.gaps();
+  std::vector<Point> feet;
+  for (std::uint32_t v = 1; v < gaps.mesh().vertex_bound(); ++v)
+    if (gaps.is_foot(VertexId(v))) feet.push_back(gaps.mesh().point(VertexId(v)));
+  std::ranges::sort(feet);
+  EXPECT_EQ(feet, (std::vector<Point>{{0, 50}, {50, 0}, {50, 100}, {100, 50}}));
+  EXPECT_EQ(shortest_path(space, {{30, 20}, {80, 80}, 15}).status, Status::found);
+  EXPECT_NE(shortest_path(space, {{30, 20}, {80, 80}, std::nextafter(15, 16)}).status,
+            Status::found);
+}
+
+/// LOFT_SOAK_DISCS for the long run.
 TEST(Radius, TheSameAsAFreshBuildAfterMoves) {
-  for (unsigned seed = 0; seed < 6; ++seed) {
+  const char* const more = std::getenv("LOFT_SOAK_DISCS");
+  const std::uint64_t seeds = more != nullptr ? std::strtoull(more, nullptr, 10) : 6;
+  for (unsigned seed = 0; seed < seeds; ++seed) {
     SCOPED_TRACE(seed);
     Clutter scene(seed, 25);
     FreeSpace space(scene.overlay, scene.free(), std::vector{scene.walls});

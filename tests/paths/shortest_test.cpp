@@ -52,6 +52,49 @@ TEST(ShortestPath, LeavesADeadEndForAGoalThatTouchesItFromOutside) {
   }
 }
 
+/// A room with pillars behind a door is no dead end by its triangles: ways lead around in it.
+TEST(ShortestPath, LeavesOutARoomWithOneDoorButForItsGoals) {
+  Overlay overlay;
+  const LayerId rooms = overlay.add_layer("rooms");
+  const LayerId pillars = overlay.add_layer("pillars");
+  overlay.insert(rooms, std::vector<Point>{{0, 0},
+                                           {100, 0},
+                                           {100, 40},
+                                           {52, 40},
+                                           {52, 50},
+                                           {100, 50},
+                                           {100, 100},
+                                           {0, 100},
+                                           {0, 50},
+                                           {48, 50},
+                                           {48, 40},
+                                           {0, 40}});
+  for (double x = 10; x < 90; x += 20) {
+    overlay.insert(pillars, box(x, 10, x + 10, 20));
+    overlay.insert(pillars, box(x, 70, x + 10, 80));
+  }
+  overlay.insert(pillars, box(60, 25, 70, 40));
+  const FreeSpace space(overlay, overlay::Expression(rooms) - pillars);
+  const Query below{.from = {2, 2}, .to = {98, 38}};
+  const Query up{.from = {2, 2}, .to = {98, 98}};
+  Workspace warm;
+  Path path;
+  for (int i = 0; i < 100; ++i) warm.find(space, up, path);
+  for (const Query& query : {below, up, Query{.from = up.to, .to = up.from}}) {
+    Workspace cold;
+    Path same;
+    cold.find(space, query, same);
+    warm.find(space, query, path);
+    EXPECT_EQ(path, same);
+    EXPECT_LE(warm.expansions(), cold.expansions());
+  }
+  const Query across{.from = {2, 38}, .to = {98, 38}};  // past the door
+  Workspace cold;
+  cold.find(space, across, path);
+  warm.find(space, across, path);
+  EXPECT_LT(warm.expansions(), cold.expansions());
+}
+
 TEST(ShortestPath, AWorkspaceKnowsASpaceFromAnotherInItsPlace) {
   const auto box_at = [](Overlay& overlay, double x) {
     const LayerId room = overlay.add_layer("room");
