@@ -268,9 +268,7 @@ class Field {
   [[nodiscard]] Vector find_gradient(EdgeId e, bool& reads_derived) const;
   [[nodiscard]] std::optional<Vector> find_whole_gradient(EdgeId e, bool& reads_derived) const;
   [[nodiscard]] Vector find_sector_gradient(EdgeId e, bool& reads_derived) const;
-  [[nodiscard]] bool is_derived(EdgeId e) const {
-    return values_[e.index()] != values_[e.index()];
-  }
+  [[nodiscard]] bool is_derived(EdgeId e) const { return values_[e.index()] != values_[e.index()]; }
   void forget_gradients_around(VertexId v);
 
   // interpolate.cpp

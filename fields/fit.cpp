@@ -166,11 +166,13 @@ class NormalEquations {
     if (count_ == 0) return std::nullopt;
     std::array<std::array<double, terms + 1>, terms> rest;  // what is left of products
     std::array<std::array<double, terms + 1>, terms> factors;
-    for (std::size_t j = 0; j < terms; ++j)
-      for (std::size_t k = j; k <= terms; ++k) rest[j][k] = product(columns_[j], columns_[k]);
+    std::array<double, terms> least;
     for (std::size_t j = 0; j < terms; ++j) {
-      const double whole = product(columns_[j], columns_[j]);
-      if (!(rest[j][j] > clear_share * whole)) return std::nullopt;
+      for (std::size_t k = j; k <= terms; ++k) rest[j][k] = product(columns_[j], columns_[k]);
+      least[j] = clear_share * rest[j][j];
+    }
+    for (std::size_t j = 0; j < terms; ++j) {
+      if (!(rest[j][j] > least[j])) return std::nullopt;
       const double inverse = 1 / rest[j][j];
       for (std::size_t k = j + 1; k <= terms; ++k) factors[j][k] = rest[j][k] * inverse;
       for (std::size_t i = j + 1; i < terms; ++i)

@@ -59,18 +59,26 @@ class Opposite {
 /// The values around, each once.
 class Surroundings {
  public:
-  /// Nothing, if it is not a number.
-  void add(VertexId v, Point p, double value) {
-    bool is_new = value == value;
-    for (std::size_t i = 0; i < count_; ++i)
-      is_new = is_new && !(vertices_[i] == v && places_[i].value == value);
-    if (!is_new) return;
+  /// Precondition: there is a value, and it is not there yet.
+  void add_new(VertexId v, Point p, double value) {
     vertices_[count_] = v;
     places_[count_++] = {p, value};
+  }
+  void add(VertexId v, Point p, double value) {
+    if (!has(v) || !has({p, value})) add_new(v, p, value);
   }
   [[nodiscard]] std::span<const Around> places() const { return {places_.data(), count_}; }
 
  private:
+  [[nodiscard]] bool has(VertexId v) const {  // often asked: without a branch for each
+    bool is_there = false;
+    for (std::size_t i = 0; i < count_; ++i) is_there |= vertices_[i] == v;
+    return is_there;
+  }
+  [[nodiscard]] bool has(const Around& around) const {
+    return std::ranges::find(places(), around) != places().end();
+  }
+
   static constexpr std::size_t most = 2 * Opposite::most;
   std::array<Around, most> places_;
   std::array<VertexId, most> vertices_;
@@ -118,16 +126,22 @@ std::optional<Vector> Field::find_whole_gradient(EdgeId e, bool& reads_derived) 
   const double value = corner_value(e);
   if (!(value == value)) return Vector{};
   Surroundings around;
-  const auto look_at = [&](EdgeId corner) {
+  const auto value_of = [&](EdgeId corner) {
     reads_derived = reads_derived || is_derived(corner);
-    around.add(mesh_.from(corner), mesh_.point(mesh_.from(corner)), corner_value(corner));
+    return corner_value(corner);
   };
-  for (const EdgeId side : opposite.edges()) look_at(side);
-  for (const EdgeId side : opposite.edges())
-    if (!mesh_.is_constrained(side) || !parts_gradients(*this, side)) {
-      const EdgeId apex = Triangulation::prev(mesh_.twin(side));
-      if (mesh_.from(apex) != Triangulation::infinite) look_at(apex);
-    }
+  for (const EdgeId side : opposite.edges()) {
+    const VertexId v = mesh_.from(side);
+    if (const double there = value_of(side); there == there)
+      around.add_new(v, mesh_.point(v), there);
+  }
+  for (const EdgeId side : opposite.edges()) {
+    if (mesh_.is_constrained(side) && parts_gradients(*this, side)) continue;
+    const EdgeId apex = Triangulation::prev(mesh_.twin(side));
+    const VertexId v = mesh_.from(apex);
+    if (v == Triangulation::infinite) continue;
+    if (const double there = value_of(apex); there == there) around.add(v, mesh_.point(v), there);
+  }
   if (around.places().empty()) return Vector{};
   return fit_gradient(mesh_.point(mesh_.from(e)), value, around.places());
 }
