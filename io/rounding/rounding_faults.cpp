@@ -6,8 +6,8 @@
 
 #include "mesh/adjacency.h"
 #include "mesh/check.h"
+#include "mesh/meeting_faces.h"
 #include "mesh/predicates.h"
-#include "mesh/triangle_pairs.h"
 #include "mesh/vec3.h"
 
 namespace loft::io {
@@ -44,21 +44,13 @@ std::vector<std::uint32_t> find_flat_faces(const Mesh& mesh, RoundingFaults& fau
 
 void find_meeting_faces(const Mesh& mesh, const std::vector<std::uint32_t>& faces,
                         RoundingFaults& faults) {
-  std::vector<Corners> places;
-  std::vector<TrianglePairs::Vertices> vertices;
-  for (const std::uint32_t f : faces) {
-    places.push_back(corners(mesh, f));
-    vertices.push_back(mesh.faces[f]);
-  }
-  const TrianglePairs pairs(places, vertices, mesh.points.size());
-  const bool are_all = pairs.all_of([&](std::uint32_t i, std::uint32_t j) {
-    if (!triangles_meet(places[i], places[j])) return true;
+  const std::size_t all = most_intersections(mesh);
+  const std::size_t most = faults.count < all ? all - faults.count : 1;
+  for (const auto& [f, g] : meeting_faces(mesh, faces, most)) {
     ++faults.count;
-    add_corners(vertices[i], faults);
-    add_corners(vertices[j], faults);
-    return faults.count < most_intersections(mesh);
-  });
-  static_cast<void>(are_all);
+    add_corners(mesh.faces[f], faults);
+    add_corners(mesh.faces[g], faults);
+  }
 }
 
 /// Six times the volume of each component, at its first vertex; about that vertex, so that what is
