@@ -247,16 +247,35 @@ class BoxPyramid {
     while (levels_.back().size() > 1) levels_.push_back(halved(levels_.back()));
   }
 
-  /// Whether test(f, g) holds for all pairs whose boxes meet; stops where it does not, and where
-  /// more than `patience` boxes met.
+  /// The pairs are looked at in so many tasks.
+  [[nodiscard]] std::size_t task_count() const {
+    return items_.empty() ? 0 : levels_[task_level()].size();
+  }
+  /// Whether test(f, g) holds for all pairs of a task whose boxes meet; stops where it does not,
+  /// and where far more boxes met than usually do.
   template <class Test>
-  [[nodiscard]] bool all_of(std::size_t patience, Test test) {
-    patience_ = patience;
-    return items_.empty() || within(levels_.size() - 1, 0, test);
+  [[nodiscard]] bool all_of(std::size_t task, Test test) const {
+    const std::size_t level = task_level();
+    Walk<Test> walk{*this, patience(), test};
+    if (!walk.within(level, task)) return false;
+    for (std::size_t other = task + 1; other < levels_[level].size(); ++other)
+      if (meet(level, task, other) && !walk.between(level, task, other)) return false;
+    return true;
   }
 
  private:
   static constexpr std::size_t leaf_size = 8;
+  static constexpr std::size_t most_tasks = 64;
+
+  [[nodiscard]] std::size_t task_level() const {
+    std::size_t level = 0;
+    while (levels_[level].size() > most_tasks) ++level;
+    return level;
+  }
+  /// On usual surfaces it takes ten for each face.
+  [[nodiscard]] std::size_t patience() const {
+    return 10'000 + 200 * (items_.size() / task_count());
+  }
 
   struct Item {
     PackedBox box;
@@ -289,53 +308,56 @@ class BoxPyramid {
     return result;
   }
 
-  template <class Test>
-  bool within(std::size_t level, std::size_t i, Test& test) {
-    if (level == 0) return within_leaf(i, test);
-    const std::size_t first = 2 * i;
-    const std::size_t second = first + 1;
-    if (second == levels_[level - 1].size()) return within(level - 1, first, test);
-    return within(level - 1, first, test) && within(level - 1, second, test) &&
-           (!meet(level - 1, first, second) || between(level - 1, first, second, test));
-  }
   [[nodiscard]] bool meet(std::size_t level, std::size_t i, std::size_t j) const {
     return boxes_meet(levels_[level][i], levels_[level][j]);
   }
-  /// Of two that meet.
+  /// Through the pairs of one task.
   template <class Test>
-  bool between(std::size_t level, std::size_t i, std::size_t j, Test& test) {
-    if (!has_patience()) return false;
-    if (level == 0) return between_leaves(i, j, test);
-    const std::size_t below = level - 1;
-    const std::size_t end_i = std::min(2 * i + 2, levels_[below].size());
-    const std::size_t end_j = std::min(2 * j + 2, levels_[below].size());
-    for (std::size_t k = 2 * i; k < end_i; ++k)
-      for (std::size_t l = 2 * j; l < end_j; ++l)
-        if (meet(below, k, l) && !between(below, k, l, test)) return false;
-    return true;
-  }
-  template <class Test>
-  bool within_leaf(std::size_t leaf, Test& test) {
-    const std::span<const Item> items = leaf_items(leaf);
-    for (std::size_t i = 0; i < items.size(); ++i)
-      for (std::size_t j = i + 1; j < items.size(); ++j)
-        if (!pair(items[i], items[j], test)) return false;
-    return true;
-  }
-  template <class Test>
-  bool between_leaves(std::size_t a, std::size_t b, Test& test) {
-    for (const Item& item : leaf_items(a)) {
-      if (!boxes_meet(item.box, levels_[0][b])) continue;
-      for (const Item& other : leaf_items(b))
-        if (!pair(item, other, test)) return false;
+  struct Walk {
+    const BoxPyramid& boxes;
+    std::size_t patience;
+    Test& test;
+
+    bool within(std::size_t level, std::size_t i) {
+      if (level == 0) return within_leaf(i);
+      const std::size_t first = 2 * i;
+      const std::size_t second = first + 1;
+      if (second == boxes.levels_[level - 1].size()) return within(level - 1, first);
+      return within(level - 1, first) && within(level - 1, second) &&
+             (!boxes.meet(level - 1, first, second) || between(level - 1, first, second));
     }
-    return true;
-  }
-  template <class Test>
-  bool pair(const Item& a, const Item& b, Test& test) {
-    return !boxes_meet(a.box, b.box) || (has_patience() && test(a.face, b.face));
-  }
-  [[nodiscard]] bool has_patience() { return patience_ > 0 && patience_-- > 0; }
+    /// Of two that meet.
+    bool between(std::size_t level, std::size_t i, std::size_t j) {
+      if (!has_patience()) return false;
+      if (level == 0) return between_leaves(i, j);
+      const std::size_t below = level - 1;
+      const std::size_t end_i = std::min(2 * i + 2, boxes.levels_[below].size());
+      const std::size_t end_j = std::min(2 * j + 2, boxes.levels_[below].size());
+      for (std::size_t k = 2 * i; k < end_i; ++k)
+        for (std::size_t l = 2 * j; l < end_j; ++l)
+          if (boxes.meet(below, k, l) && !between(below, k, l)) return false;
+      return true;
+    }
+    bool within_leaf(std::size_t leaf) {
+      const std::span<const Item> items = boxes.leaf_items(leaf);
+      for (std::size_t i = 0; i < items.size(); ++i)
+        for (std::size_t j = i + 1; j < items.size(); ++j)
+          if (!pair(items[i], items[j])) return false;
+      return true;
+    }
+    bool between_leaves(std::size_t a, std::size_t b) {
+      for (const Item& item : boxes.leaf_items(a)) {
+        if (!boxes_meet(item.box, boxes.levels_[0][b])) continue;
+        for (const Item& other : boxes.leaf_items(b))
+          if (!pair(item, other)) return false;
+      }
+      return true;
+    }
+    bool pair(const Item& a, const Item& b) {
+      return !boxes_meet(a.box, b.box) || (has_patience() && test(a.face, b.face));
+    }
+    bool has_patience() { return patience > 0 && patience-- > 0; }
+  };
   [[nodiscard]] std::span<const Item> leaf_items(std::size_t leaf) const {
     const std::size_t first = leaf * leaf_size;
     return std::span(items_).subspan(first, std::min(leaf_size, items_.size() - first));
@@ -343,22 +365,24 @@ class BoxPyramid {
 
   std::vector<Item> items_;
   std::vector<std::vector<PackedBox>> levels_;
-  std::size_t patience_ = 0;
 };
 
 /// None where boxes alone are no help, or there are too many pairs.
-std::optional<std::vector<FacePair>> meeting_by_boxes(const Mesh& mesh,
-                                                      std::span<const std::uint32_t> faces,
-                                                      const FaceTest& test, std::size_t most) {
+std::optional<std::vector<FacePair>> meeting_by_boxes(const BoxPyramid& boxes, const FaceTest& test,
+                                                      std::size_t most, const Runner& run) {
+  std::vector<std::vector<FacePair>> found(boxes.task_count());
+  std::vector<char> are_all(boxes.task_count());
+  run(boxes.task_count(), [&](std::size_t task) {
+    const auto look_at = [&](const Face& f, const Face& g) {
+      if (test.meet(f, g)) found[task].emplace_back(std::minmax(f.number, g.number));
+      return found[task].size() < most;
+    };
+    are_all[task] = boxes.all_of(task, look_at) ? 1 : 0;
+  });
+  if (std::ranges::find(are_all, 0) != are_all.end()) return std::nullopt;
   std::vector<FacePair> result;
-  const auto look_at = [&](const Face& f, const Face& g) {
-    if (test.meet(f, g)) result.emplace_back(std::minmax(f.number, g.number));
-    return result.size() < most;
-  };
-  constexpr std::size_t patience = 100;  // a face; usual surfaces take a tenth of that
-  BoxPyramid boxes(mesh, faces);
-  if (!boxes.all_of(patience * (faces.size() + 100), look_at)) return std::nullopt;
-  return result;
+  for (const auto& pairs : found) result.insert(result.end(), pairs.begin(), pairs.end());
+  return result.size() < most ? std::optional(result) : std::nullopt;
 }
 
 std::vector<FacePair> meeting_by_turned_boxes(const Mesh& mesh,
@@ -400,10 +424,17 @@ std::vector<char> detail::find_tidy_vertices(const Mesh& mesh,
 }
 
 std::vector<FacePair> meeting_faces(const Mesh& mesh, std::span<const std::uint32_t> faces,
-                                    std::size_t most) {
-  const FaceTest test(mesh, faces);
-  auto result = meeting_by_boxes(mesh, faces, test, most);
-  if (!result) result = meeting_by_turned_boxes(mesh, faces, test, most);
+                                    std::size_t most, const Runner& run) {
+  std::optional<FaceTest> test;
+  std::optional<BoxPyramid> boxes;
+  run(2, [&](std::size_t part) {
+    if (part == 0)
+      test.emplace(mesh, faces);
+    else
+      boxes.emplace(mesh, faces);
+  });
+  auto result = meeting_by_boxes(*boxes, *test, most, run);
+  if (!result) result = meeting_by_turned_boxes(mesh, faces, *test, most);
   std::ranges::sort(*result);
   return *std::move(result);
 }

@@ -6,7 +6,6 @@
 
 #include "mesh/adjacency.h"
 #include "mesh/check.h"
-#include "mesh/meeting_faces.h"
 #include "mesh/predicates.h"
 #include "mesh/vec3.h"
 
@@ -43,10 +42,10 @@ std::vector<std::uint32_t> find_flat_faces(const Mesh& mesh, RoundingFaults& fau
 }
 
 void find_meeting_faces(const Mesh& mesh, const std::vector<std::uint32_t>& faces,
-                        RoundingFaults& faults) {
+                        const Runner& run, RoundingFaults& faults) {
   const std::size_t all = most_intersections(mesh);
   const std::size_t most = faults.count < all ? all - faults.count : 1;
-  for (const auto& [f, g] : meeting_faces(mesh, faces, most)) {
+  for (const auto& [f, g] : meeting_faces(mesh, faces, most, run)) {
     ++faults.count;
     add_corners(mesh.faces[f], faults);
     add_corners(mesh.faces[g], faults);
@@ -82,10 +81,11 @@ void find_turned_components(const Mesh& rounded, const Mesh& exact, RoundingFaul
 
 }  // namespace
 
-RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact, const PlaceCounts& counts) {
+RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact, const PlaceCounts& counts,
+                           const Runner& run) {
   RoundingFaults faults;
   find_shared_places(rounded, counts, faults);
-  find_meeting_faces(rounded, find_flat_faces(rounded, faults), faults);
+  find_meeting_faces(rounded, find_flat_faces(rounded, faults), run, faults);
   find_turned_components(rounded, exact, faults);
   std::ranges::sort(faults.vertices);
   faults.vertices.erase(std::unique(faults.vertices.begin(), faults.vertices.end()),

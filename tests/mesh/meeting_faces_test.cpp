@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <numbers>
 #include <random>
 #include <vector>
@@ -36,6 +37,10 @@ std::vector<FacePair> meeting_by_all_pairs(const Mesh& mesh) {
       if (triangles_meet(corners(mesh, faces[i]), corners(mesh, faces[j])))
         result.emplace_back(faces[i], faces[j]);
   return result;
+}
+
+void run_backwards(std::size_t count, const std::function<void(std::size_t i)>& task) {
+  while (count > 0) task(--count);
 }
 
 std::vector<FacePair> meeting(const Mesh& mesh) {
@@ -75,6 +80,7 @@ TEST(MeetingFaces, AreThoseThatTheExactTestFinds) {
     const Mesh mesh = crumpled_torus(random, 10, amount, step);
     const std::vector<FacePair> expected = meeting_by_all_pairs(mesh);
     ASSERT_EQ(meeting(mesh), expected);
+    ASSERT_EQ(meeting_faces(mesh, faces_with_area(mesh), all, run_backwards), expected);
     found += expected.size();
   }
   EXPECT_GT(found, cases(60) * 20);
