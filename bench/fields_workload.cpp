@@ -27,8 +27,8 @@ using fields::SampleId;
 using fields::Smoothness;
 
 constexpr const char* usage =
-    "usage: fields_workload make SAMPLES DIR     writes terrain_SAMPLES.xyz, terrain_breakline.xyz\n"
-    "                                           and queries_100000.xy, for others\n"
+    "usage: fields_workload make SAMPLES DIR    writes terrain_SAMPLES.xyz, queries_100000.xy and\n"
+    "                                           terrain_breakline.xyz, for others\n"
     "       fields_workload ask SAMPLES         builds, asks at 100,000 places, errors\n"
     "       fields_workload move SAMPLES        one moves, and is asked, 20,000 times\n"
     "       fields_workload raster SAMPLES      1,000 x 1,000 cells\n";
