@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: MIT
-"""Times scipy and matplotlib on the samples of `fields_workload make`: fields_peers.py FOLDER"""
+"""Times scipy and matplotlib on the samples of `fields_workload make`: fields_peers.py SAMPLES FOLDER"""
 import sys
 import time
 
@@ -7,9 +7,9 @@ import matplotlib.tri
 import numpy
 from scipy.interpolate import CloughTocher2DInterpolator, LinearNDInterpolator
 
-folder = sys.argv[1]
-samples = numpy.loadtxt(folder + "/samples.xyz")
-queries = numpy.loadtxt(folder + "/queries.xy")
+count, folder = sys.argv[1:]
+samples = numpy.loadtxt(f"{folder}/terrain_{count}.xyz")
+queries = numpy.loadtxt(folder + "/queries_100000.xy")
 places, values = samples[:, :2], samples[:, 2]
 
 

@@ -27,7 +27,8 @@ using fields::SampleId;
 using fields::Smoothness;
 
 constexpr const char* usage =
-    "usage: fields_workload make SAMPLES DIR     writes samples.xyz and queries.xy, for others\n"
+    "usage: fields_workload make SAMPLES DIR    writes terrain_SAMPLES.xyz, queries_100000.xy and\n"
+    "                                           terrain_breakline.xyz, for others\n"
     "       fields_workload ask SAMPLES         builds, asks at 100,000 places, errors\n"
     "       fields_workload move SAMPLES        one moves, and is asked, 20,000 times\n"
     "       fields_workload raster SAMPLES      1,000 x 1,000 cells\n";
@@ -74,13 +75,16 @@ struct Wall {
 };
 
 void make(std::size_t count, const std::string& folder) {
-  std::ofstream xyz(folder + "/samples.xyz");
-  std::ofstream xy(folder + "/queries.xy");
-  xyz.precision(17);
-  xy.precision(17);
+  std::ofstream xyz(folder + "/terrain_" + std::to_string(count) + ".xyz");
+  std::ofstream line(folder + "/terrain_breakline.xyz");
+  std::ofstream xy(folder + "/queries_" + std::to_string(query_count) + ".xy");
+  for (std::ofstream* file : {&xyz, &line, &xy}) file->precision(17);
   for (const Sample& s : samples(count))
     xyz << s.place.x << ' ' << s.place.y << ' ' << s.value << '\n';
   for (const Point p : places(2, query_count)) xy << p.x << ' ' << p.y << '\n';
+  const Wall wall;
+  for (std::size_t i = 0; i < wall.points.size(); ++i)
+    line << wall.points[i].x << ' ' << wall.points[i].y << ' ' << wall.right[i] << '\n';
 }
 
 /// Root mean squares of the errors, away from the cliff and near it.

@@ -268,7 +268,7 @@ void Field::make_room() {
   if (const std::size_t vertices = mesh_.vertex_bound(); vertices > first_sample_.size()) {
     first_sample_.resize(vertices);
     derived_state_.resize(vertices);
-    gradient_state_.resize(vertices);
+    rises_.resize(vertices);
   }
   if (mesh_.constraint_bound() > samples_.size()) samples_.resize(mesh_.constraint_bound());
 }
@@ -328,7 +328,7 @@ void Field::rebuild() {
   touched_.clear();
   conflicts_.clear();
   for (std::uint32_t v = 1; v < mesh_.vertex_bound(); ++v) settle(VertexId(v));
-  std::fill(gradient_state_.begin(), gradient_state_.end(), 0);
+  std::fill(rises_.begin(), rises_.end(), Rise{});
 }
 
 /// All but the soft lines, once more.

@@ -209,6 +209,10 @@ class Field {
     SampleId next_here{};  // of those at the vertex
     SampleId firm{};       // its id in firm_
   };
+  struct Rise {  // of a vertex
+    std::uint64_t state = 0;
+    Vector gradient;
+  };
 
   [[nodiscard]] bool is_infinite(EdgeId e) const {
     return mesh_.is_infinite(Triangulation::triangle(e));
@@ -262,6 +266,9 @@ class Field {
 
   // gradients.cpp
   [[nodiscard]] Vector find_gradient(EdgeId e, bool& reads_derived) const;
+  [[nodiscard]] std::optional<Vector> find_whole_gradient(EdgeId e, bool& reads_derived) const;
+  [[nodiscard]] Vector find_sector_gradient(EdgeId e, bool& reads_derived) const;
+  [[nodiscard]] bool is_derived(EdgeId e) const { return values_[e.index()] != values_[e.index()]; }
   void forget_gradients_around(VertexId v);
 
   // interpolate.cpp
@@ -287,8 +294,8 @@ class Field {
   // Found when they are asked for, by whoever is first; `state`: by vertex, see Kept.
   mutable std::vector<double> derived_;  // by edge
   mutable std::vector<std::uint64_t> derived_state_;
-  mutable std::vector<Vector> gradients_;  // by edge
-  mutable std::vector<std::uint64_t> gradient_state_;
+  mutable std::vector<Rise> rises_;        // by vertex
+  mutable std::vector<Vector> gradients_;  // by edge, where they are not the same all around
 
   double lone_value_ = 0;  // while there is one vertex only
 

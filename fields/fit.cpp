@@ -82,7 +82,7 @@ class Plane {
 /// after the other, and what they explain is taken from the values.
 class QuadraticFit {
  public:
-  QuadraticFit(cdt::Point at, double value, const std::vector<Around>& around)
+  QuadraticFit(cdt::Point at, double value, std::span<const Around> around)
       : scale_(scale(at, around)) {
     rows_.reserve(around.size());
     for (const Around& a : around) {
@@ -116,7 +116,7 @@ class QuadraticFit {
   static constexpr std::size_t terms = 5;  // x, y, xx, xy, yy
   using Row = std::array<double, terms + 1>;
 
-  [[nodiscard]] static double scale(cdt::Point at, const std::vector<Around>& around) {
+  [[nodiscard]] static double scale(cdt::Point at, std::span<const Around> around) {
     double sum = 0;
     for (const Around& a : around) {
       const Vector d = way(at, a.place);
@@ -138,8 +138,76 @@ class QuadraticFit {
   std::array<std::array<double, terms + 1>, terms> factors_{};
 };
 
+/// The same problem by its normal equations, which take a fraction of the time, but lose twice the
+/// digits: for columns that are far from depending on one another.
+class NormalEquations {
+ public:
+  NormalEquations(cdt::Point at, double value, std::span<const Around> around) {
+    if (around.size() > most) return;
+    for (std::size_t i = 0; i < around.size(); ++i) {
+      const Vector d = way(at, around[i].place);
+      const double w = 1 / dot(d, d);
+      columns_[0][i] = w * d.x;
+      columns_[1][i] = w * d.y;
+      columns_[2][i] = w * d.x * d.x;
+      columns_[3][i] = w * d.x * d.y;
+      columns_[4][i] = w * d.y * d.y;
+      columns_[5][i] = w * (around[i].value - value);
+    }
+    count_ = around.size();
+    while (count_ % lanes != 0) {
+      for (auto& column : columns_) column[count_] = 0;
+      ++count_;
+    }
+  }
+
+  /// None where columns are too near to depending on one another.
+  [[nodiscard]] std::optional<Vector> gradient() const {
+    if (count_ == 0) return std::nullopt;
+    std::array<std::array<double, terms + 1>, terms> rest;  // what is left of products
+    std::array<std::array<double, terms + 1>, terms> factors;
+    std::array<double, terms> least;
+    for (std::size_t j = 0; j < terms; ++j) {
+      for (std::size_t k = j; k <= terms; ++k) rest[j][k] = product(columns_[j], columns_[k]);
+      least[j] = clear_share * rest[j][j];
+    }
+    for (std::size_t j = 0; j < terms; ++j) {
+      if (!(rest[j][j] > least[j])) return std::nullopt;
+      const double inverse = 1 / rest[j][j];
+      for (std::size_t k = j + 1; k <= terms; ++k) factors[j][k] = rest[j][k] * inverse;
+      for (std::size_t i = j + 1; i < terms; ++i)
+        for (std::size_t k = i; k <= terms; ++k) rest[i][k] -= factors[j][i] * rest[j][k];
+    }
+    std::array<double, terms> solution;
+    for (std::size_t j = terms; j-- > 0;) {
+      solution[j] = factors[j][terms];
+      for (std::size_t k = j + 1; k < terms; ++k) solution[j] -= factors[j][k] * solution[k];
+    }
+    return Vector{solution[0], solution[1]};
+  }
+
+ private:
+  static constexpr std::size_t terms = 5;  // as above
+  static constexpr std::size_t most = 32;
+  static constexpr std::size_t lanes = 4;
+  /// Of a column's square, at least that is left beside the columns before it.
+  static constexpr double clear_share = 1e-2;
+
+  using Column = std::array<double, most>;
+
+  [[nodiscard]] double product(const Column& a, const Column& b) const {
+    std::array<double, lanes> sums{};
+    for (std::size_t i = 0; i < count_; i += lanes)
+      for (std::size_t lane = 0; lane < lanes; ++lane) sums[lane] += a[i + lane] * b[i + lane];
+    return (sums[0] + sums[2]) + (sums[1] + sums[3]);
+  }
+
+  std::array<Column, terms + 1> columns_;
+  std::size_t count_ = 0;
+};
+
 /// The gradient where all that is known is in one line.
-Vector gradient_along_line(cdt::Point at, double value, const std::vector<Around>& around) {
+Vector gradient_along_line(cdt::Point at, double value, std::span<const Around> around) {
   double squares = 0;
   Vector rise;
   for (const Around& a : around) {
@@ -151,7 +219,7 @@ Vector gradient_along_line(cdt::Point at, double value, const std::vector<Around
   return squares > 0 ? 1 / squares * rise : Vector{};
 }
 
-[[nodiscard]] bool is_in_line(cdt::Point at, const std::vector<Around>& around) {
+[[nodiscard]] bool is_in_line(cdt::Point at, std::span<const Around> around) {
   Moments moments;
   for (const Around& a : around) {
     const Vector d = way(at, a.place);
@@ -172,7 +240,8 @@ double nearest_plane_value(cdt::Point at, const std::vector<Around>& around) {
   return Plane(at, around).value();
 }
 
-Vector fit_gradient(cdt::Point at, double value, const std::vector<Around>& around) {
+Vector fit_gradient(cdt::Point at, double value, std::span<const Around> around) {
+  if (const auto gradient = NormalEquations(at, value, around).gradient()) return *gradient;
   if (is_in_line(at, around)) return gradient_along_line(at, value, around);
   return QuadraticFit(at, value, around).gradient();
 }

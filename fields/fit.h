@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "cdt/point.h"
@@ -28,6 +29,6 @@ struct Around {
 /// The gradient, at a place with a value, of the quadratic polynomial through it that fits others
 /// best, weighted by the inverse fourth powers of distances, as what is left out grows with their
 /// third; terms that they do not fix are left out.
-[[nodiscard]] Vector fit_gradient(cdt::Point at, double value, const std::vector<Around>& around);
+[[nodiscard]] Vector fit_gradient(cdt::Point at, double value, std::span<const Around> around);
 
 }  // namespace loft::fields

@@ -18,27 +18,36 @@ EdgeId first_edge(const Triangulation& mesh, TriangleId t) {
   return first;
 }
 
+constexpr double a_third = 1.0 / 3;
+constexpr double a_sixth = 1.0 / 6;
+
+/// Which of three is the least; of equal ones, the first.
+unsigned least_of(const std::array<double, 3>& w) {
+  const unsigned least = w[1] < w[0] ? 1 : 0;
+  return w[2] < w[least] ? 2 : least;
+}
+
+constexpr std::array<unsigned, 3> following{1, 2, 0};
+
 }  // namespace
 
 Patch::Patch(const Field& field, TriangleId t, Smoothness smoothness) {
   const Triangulation& mesh = field.mesh();
-  EdgeId e = first_edge(mesh, t);
+  first_ = first_edge(mesh, t);
+  EdgeId e = first_;
   for (unsigned i = 0; i < 3; ++i, e = Triangulation::next(e)) {
     corners_[i] = mesh.point(mesh.from(e));
     values_[i] = field.corner_value(e);
+    has_values_ = has_values_ && values_[i] == values_[i];
   }
-  area_ = cross(way(corners_[0], corners_[1]), way(corners_[0], corners_[2]));
-  if (smoothness == Smoothness::cubic && has_values()) bend(field, t);
-}
-
-bool Patch::has_values() const {
-  return std::none_of(values_.begin(), values_.end(), [](double z) { return z != z; });
+  inverse_area_ = 1 / cross(way(corners_[0], corners_[1]), way(corners_[0], corners_[2]));
+  if (smoothness == Smoothness::cubic && has_values_) bend(field);
 }
 
 Patch::Weights Patch::weights(Point p) const {
   const Vector d = way(corners_[0], p);
-  const double second = cross(d, way(corners_[0], corners_[2])) / area_;
-  const double third = cross(way(corners_[0], corners_[1]), d) / area_;
+  const double second = cross(d, way(corners_[0], corners_[2])) * inverse_area_;
+  const double third = cross(way(corners_[0], corners_[1]), d) * inverse_area_;
   return {1 - second - third, second, third};
 }
 
@@ -60,67 +69,69 @@ Vector Patch::gradient_of(const std::array<double, 3>& slopes) const {
   const Vector c = way(corners_[0], corners_[2]);
   const double rise_b = slopes[1] - slopes[0];
   const double rise_c = slopes[2] - slopes[0];
-  return {(rise_b * c.y - rise_c * b.y) / area_, (rise_c * b.x - rise_b * c.x) / area_};
+  return {(rise_b * c.y - rise_c * b.y) * inverse_area_,
+          (rise_c * b.x - rise_b * c.x) * inverse_area_};
 }
 
 /// The control points: at each corner in the plane of its gradient, beside each edge so that the
 /// slope across it is linear, and inside so that the three polynomials meet smoothly.
-void Patch::bend(const Field& field, TriangleId t) {
+void Patch::bend(const Field& field) {
   is_bent_ = true;
-  EdgeId e = first_edge(field.mesh(), t);
+  Gradients gradients;
+  EdgeId e = first_;
   for (unsigned i = 0; i < 3; ++i, e = Triangulation::next(e))
-    gradients_[i] = field.corner_gradient(e);
+    gradients[i] = field.corner_gradient(e);
 
   const Point middle = centroid(corners_[0], corners_[1], corners_[2]);
   std::array<double, 3> inward{};  // on the way from a corner to the middle
   for (unsigned i = 0; i < 3; ++i)
-    inward[i] = values_[i] + dot(gradients_[i], way(corners_[i], middle)) / 3;
+    inward[i] = values_[i] + dot(gradients[i], way(corners_[i], middle)) * a_third;
   for (unsigned i = 0; i < 3; ++i) {
-    const unsigned j = (i + 1) % 3;
+    const unsigned j = following[i];
     const Vector along = way(corners_[i], corners_[j]);
     const double foot = dot(way(corners_[i], middle), along) / dot(along, along);
     const Vector across = way(corners_[i], middle) + -foot * along;
     Third& third = thirds_[i];
     third.iii = values_[i];
     third.jjj = values_[j];
-    third.iij = values_[i] + dot(gradients_[i], along) / 3;
-    third.ijj = values_[j] - dot(gradients_[j], along) / 3;
+    third.iij = values_[i] + dot(gradients[i], along) * a_third;
+    third.ijj = values_[j] - dot(gradients[j], along) * a_third;
     third.iim = inward[i];
     third.jjm = inward[j];
-    third.ijm =
-        dot(gradients_[i] + gradients_[j], across) / 6 + (1 - foot) * third.iij + foot * third.ijj;
+    third.ijm = dot(gradients[i] + gradients[j], across) * a_sixth + (1 - foot) * third.iij +
+                foot * third.ijj;
   }
   std::array<double, 3> halfway{};
   for (unsigned i = 0; i < 3; ++i)
-    halfway[i] = (inward[i] + thirds_[i].ijm + thirds_[(i + 2) % 3].ijm) / 3;
+    halfway[i] = (inward[i] + thirds_[i].ijm + thirds_[following[following[i]]].ijm) * a_third;
   for (unsigned i = 0; i < 3; ++i) {
     thirds_[i].imm = halfway[i];
-    thirds_[i].jmm = halfway[(i + 1) % 3];
-    thirds_[i].mmm = (halfway[0] + halfway[1] + halfway[2]) / 3;
+    thirds_[i].jmm = halfway[following[i]];
+    thirds_[i].mmm = (halfway[0] + halfway[1] + halfway[2]) * a_third;
   }
 
   for (unsigned i = 0; i < 3; ++i, e = Triangulation::next(e))
-    if (field.is_crease(e) && !field.is_separating(e)) add_bumps(field, e, i);
+    if (field.is_crease(e) && !field.is_separating(e)) add_bumps(field, e, i, gradients);
 }
 
 /// On a feature the slope at an end is the mean of what both sides have.
-void Patch::add_bumps(const Field& field, EdgeId e, unsigned corner) {
-  const unsigned next = (corner + 1) % 3;
+void Patch::add_bumps(const Field& field, EdgeId e, unsigned corner, const Gradients& gradients) {
+  const unsigned next = following[corner];
   const Vector along = way(corners_[corner], corners_[next]);
   const EdgeId twin = field.mesh().twin(e);
   const Vector beyond_start = field.corner_gradient(Triangulation::next(twin));
   const Vector beyond_end = field.corner_gradient(twin);
-  bumps_[bump_count_++] = {dot(beyond_start + -1 * gradients_[corner], along) / 2, corner, next};
-  bumps_[bump_count_++] = {-dot(beyond_end + -1 * gradients_[next], along) / 2, next, corner};
+  bumps_[bump_count_++] = {dot(beyond_start + -1 * gradients[corner], along) / 2, corner, next};
+  bumps_[bump_count_++] = {-dot(beyond_end + -1 * gradients[next], along) / 2, next, corner};
 }
 
 double Patch::bent_value(const Weights& w) const {
   // The third that the smallest weight is opposite to.
-  const auto least = static_cast<unsigned>(std::min_element(w.begin(), w.end()) - w.begin());
-  const unsigned i = (least + 1) % 3;
+  const unsigned least = least_of(w);
+  const unsigned i = following[least];
   const Third& b = thirds_[i];
   const double u = w[i] - w[least];
-  const double v = w[(i + 1) % 3] - w[least];
+  const double v = w[following[i]] - w[least];
   const double m = 3 * w[least];
   double z = u * u * (u * b.iii + 3 * (v * b.iij + m * b.iim)) +
              v * v * (v * b.jjj + 3 * (u * b.ijj + m * b.jjm)) +
@@ -136,9 +147,9 @@ double Patch::bent_value(const Weights& w) const {
 }
 
 std::array<double, 3> Patch::bent_slopes(const Weights& w) const {
-  const auto least = static_cast<unsigned>(std::min_element(w.begin(), w.end()) - w.begin());
-  const unsigned i = (least + 1) % 3;
-  const unsigned j = (i + 1) % 3;
+  const unsigned least = least_of(w);
+  const unsigned i = following[least];
+  const unsigned j = following[i];
   const Third& b = thirds_[i];
   const double u = w[i] - w[least];
   const double v = w[j] - w[least];

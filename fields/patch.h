@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "cdt/predicates.h"
 #include "fields/field.h"
 
 namespace loft::fields {
@@ -17,19 +18,27 @@ class Patch {
   Patch(const Field& field, TriangleId t, Smoothness smoothness);
 
   /// Whether all corners have a value.
-  [[nodiscard]] bool has_values() const;
+  [[nodiscard]] bool has_values() const { return has_values_; }
+  /// An edge that a place is on or beyond; none if it is inside the triangle. Exact.
+  [[nodiscard]] EdgeId edge_towards(Point p) const {
+    if (cdt::orient(corners_[0], corners_[1], p) <= 0) return first_;
+    if (cdt::orient(corners_[1], corners_[2], p) <= 0) return Triangulation::next(first_);
+    if (cdt::orient(corners_[2], corners_[0], p) <= 0) return Triangulation::prev(first_);
+    return {};
+  }
   /// At a place in the triangle, or so near that rounding may have put it outside.
   [[nodiscard]] double value(Point p) const;
   [[nodiscard]] Vector gradient(Point p) const;
 
  private:
   using Weights = std::array<double, 3>;  // of the corners: barycentric coordinates
+  using Gradients = std::array<Vector, 3>;
 
   /// A term along a crease from one corner to another, of which the third is opposite.
   struct Bump {
-    double height = 0;  // at the first corner, as a slope
-    unsigned first = 0;
-    unsigned second = 0;
+    double height;  // at the first corner, as a slope
+    unsigned first;
+    unsigned second;
   };
   /// A cubic polynomial over a third of the triangle, as Bézier has it: i and j are its corners,
   /// m the triangle's middle.
@@ -38,8 +47,8 @@ class Patch {
   };
 
   [[nodiscard]] Weights weights(Point p) const;
-  void bend(const Field& field, TriangleId t);
-  void add_bumps(const Field& field, EdgeId e, unsigned corner);
+  void bend(const Field& field);
+  void add_bumps(const Field& field, EdgeId e, unsigned corner, const Gradients& gradients);
   [[nodiscard]] double bent_value(const Weights& w) const;
   /// By weights.
   [[nodiscard]] std::array<double, 3> bent_slopes(const Weights& w) const;
@@ -47,11 +56,12 @@ class Patch {
 
   std::array<Point, 3> corners_{};  // counter-clockwise, from the smallest
   std::array<double, 3> values_{};
-  std::array<Vector, 3> gradients_{};
-  double area_ = 0;  // twice that of the triangle
+  double inverse_area_ = 0;  // 1 over twice that of the triangle
+  EdgeId first_;             // from the smallest corner
+  bool has_values_ = true;
   bool is_bent_ = false;
-  std::array<Third, 3> thirds_{};  // beside the edge from a corner to the next
-  std::array<Bump, 6> bumps_{};
+  std::array<Third, 3> thirds_;  // beside the edge from a corner to the next
+  std::array<Bump, 6> bumps_;
   unsigned bump_count_ = 0;
 };
 

@@ -55,14 +55,14 @@ Written write_in_metres(const SurfaceWriter& format, std::ostream& out, std::spa
     if (!options.grid) options.grid = compression_grid(parts, options);
     frame.grid = options.grid;
   }
-  const RoundedParts rounded(parts, frame, false);
+  const RoundedParts rounded(parts, frame, false, options.threads);
   format.write(out, rounded.parts(), options);
   return {rounded.rounding()};
 }
 
 Written write_as_they_are(const SurfaceWriter& format, std::ostream& out,
                           std::span<const Part> parts, WriteOptions options) {
-  const RoundedParts rounded = round_as_they_are(parts, options.origin);
+  const RoundedParts rounded = round_as_they_are(parts, options.origin, options.threads);
   format.write(out, rounded.parts(), options);
   return {rounded.rounding(), options.origin};
 }
@@ -70,7 +70,8 @@ Written write_as_they_are(const SurfaceWriter& format, std::ostream& out,
 /// 3MF, whose readers make `float` of its exact coordinates.
 Written write_to_be_rounded(const SurfaceWriter& format, std::ostream& out,
                             std::span<const Part> parts, const WriteOptions& options) {
-  const RoundedParts rounded(parts, {{}, three_mf_factor(options.metres_per_unit)}, false);
+  const RoundedParts rounded(parts, {{}, three_mf_factor(options.metres_per_unit)}, false,
+                             options.threads);
   format.write(out, rounded.parts(), options);
   return {rounded.rounding()};
 }

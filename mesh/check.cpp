@@ -9,16 +9,15 @@
 
 #include "mesh/adjacency.h"
 #include "mesh/admitted.h"
+#include "mesh/meeting_faces.h"
 #include "mesh/nesting.h"
 #include "mesh/predicates.h"
-#include "mesh/triangle_pairs.h"
 
 namespace loft {
 
 namespace {
 
 using Findings = std::vector<Finding>;
-using FacePair = std::pair<std::uint32_t, std::uint32_t>;
 
 bool names_all_vertices(const Mesh& mesh, std::uint32_t face) {
   return std::ranges::all_of(mesh.faces[face],
@@ -136,25 +135,6 @@ void find_nonmanifold_vertices(const Mesh& mesh, std::span<const std::uint32_t> 
 
 // --- Geometry ---
 
-/// The pairs of faces that meet, in order; of too many those that were found first.
-std::vector<FacePair> meeting_faces(const Mesh& mesh, std::span<const std::uint32_t> faces) {
-  std::vector<Corners> places;
-  std::vector<TrianglePairs::Vertices> vertices;
-  for (const std::uint32_t face : faces) {
-    places.push_back(corners(mesh, face));
-    vertices.push_back(mesh.faces[face]);
-  }
-  std::vector<FacePair> result;
-  const std::size_t most = most_intersections(mesh);
-  TrianglePairs(places, vertices, mesh.points.size()).all_of([&](std::uint32_t i, std::uint32_t j) {
-    const auto [f, g] = std::minmax({faces[i], faces[j]});
-    if (triangles_meet(corners(mesh, f), corners(mesh, g))) result.emplace_back(f, g);
-    return result.size() < most;
-  });
-  std::ranges::sort(result);
-  return result;
-}
-
 /// For each face its component where that is closed and oriented and meets no other one, so that
 /// inside and outside mean something; not_in_a_shell elsewhere.
 std::vector<std::uint32_t> shell_components(const Mesh& mesh, const Edges& edges,
@@ -237,8 +217,9 @@ std::vector<Finding> check(const Mesh& mesh) {
   find_edges(Fault::inconsistent_edge, edges, findings,
              [&](auto sides) { return is_inconsistent(mesh, sides); });
 
-  const std::vector<FacePair> meeting = meeting_faces(mesh, with_area);
-  if (meeting.size() < most_intersections(mesh)) {
+  const std::size_t most = most_intersections(mesh);
+  const std::vector<FacePair> meeting = meeting_faces(mesh, with_area, most);
+  if (meeting.size() < most) {
     const auto component = shell_components(mesh, edges, proper, meeting);
     find_inside_out(shells(mesh, component, with_area), findings);
   }

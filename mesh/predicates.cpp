@@ -52,10 +52,12 @@ Sides sides(const Corners& p, const Corners& q, std::size_t common) {
   return result;
 }
 
-/// Whether floating point tells the sides of all corners of q but the common ones.
-bool is_clear(const Corners& p, const Corners& q, std::size_t common) {
-  for (std::size_t j = common; j < 3; ++j)
-    if (detail::orient3d_filter(p[0], p[1], p[2], q[j]) == 0) return false;
+/// The same as far as floating point tells; whether it tells all.
+bool find_sides(const Corners& p, const Corners& q, std::size_t common, Sides& sides_of_q) {
+  for (std::size_t j = common; j < 3; ++j) {
+    sides_of_q[j] = detail::orient3d_filter(p[0], p[1], p[2], q[j]);
+    if (sides_of_q[j] == 0) return false;
+  }
   return true;
 }
 
@@ -210,8 +212,11 @@ bool triangles_meet(const Corners& first, const Corners& second) {
   if (common == 3) return true;
   // Walls have thousands of triangles where contours cross that often. Most are told apart without
   // exact arithmetic in space.
-  if (!is_clear(p, q, common) && are_seen_apart(p, q, common)) return false;
-  const Sides sides_of_q = sides(p, q, common);
+  Sides sides_of_q{};
+  if (!find_sides(p, q, common, sides_of_q)) {
+    if (are_seen_apart(p, q, common)) return false;
+    sides_of_q = sides(p, q, common);
+  }
   if (all_on_one_side(sides_of_q, common)) return false;
   if (all_in_plane(sides_of_q)) return seen_triangles_meet(p, q, common, visible_axis(p));
   const Sides sides_of_p = sides(q, p, common);

@@ -42,6 +42,7 @@ io::WriteOptions write_options(const ReconstructCommand& command) {
   for (const path& input : command.inputs) options.sources.push_back(input.filename().string());
   options.settings = settings_of(command.options);
   options.compression = command.compression;
+  options.threads = command.options.threads;
   return options;
 }
 

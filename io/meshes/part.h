@@ -68,6 +68,9 @@ struct WriteOptions {
   std::optional<Grid> grid = {};
   /// The file of materials that an OBJ names, beside it (materials.h); empty: none.
   std::string materials = {};
+  /// That test what rounding does to surfaces; 0: as many as the machine has. The bytes do not
+  /// depend on it.
+  unsigned threads = 1;
 };
 
 }  // namespace loft::io

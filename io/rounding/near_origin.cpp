@@ -22,8 +22,11 @@ Vec3 round_place_near(const Box3& box) {
 
 }  // namespace
 
-RoundedParts round_as_they_are(std::span<const Part> parts, std::optional<Vec3>& origin) {
-  const auto about = [parts](const Vec3& place) { return RoundedParts(parts, {place}, true); };
+RoundedParts round_as_they_are(std::span<const Part> parts, std::optional<Vec3>& origin,
+                               unsigned threads) {
+  const auto about = [parts, threads](const Vec3& place) {
+    return RoundedParts(parts, {place}, true, threads);
+  };
   if (origin) return about(*origin);
   const Box3 box = extent(parts);
   const Vec3 near = round_place_near(box);

@@ -12,6 +12,6 @@ namespace loft::io {
 /// are solids there; otherwise, and where coordinates are so far from 0 that `float` says little of
 /// them, about a place near them in round numbers, which `origin` is then.
 [[nodiscard]] RoundedParts round_as_they_are(std::span<const Part> parts,
-                                             std::optional<Vec3>& origin);
+                                             std::optional<Vec3>& origin, unsigned threads = 1);
 
 }  // namespace loft::io

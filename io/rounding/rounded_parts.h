@@ -16,11 +16,12 @@ namespace loft::io {
 /// The rounded surfaces are tested exactly, each by itself, mended (mender.h), and tested again.
 /// Where `are_one`, vertices of different surfaces do not share a place, either: for formats that
 /// know triangles only. Where there are too many faults they are counted only: coordinates far from
-/// the origin, say. Same surfaces, same result. Cost: O(n log n), as check(); only surfaces with
-/// faults are copied.
+/// the origin, say. Same surfaces, same result, whatever the number of threads, of which 0 are
+/// all there are. Cost: O(n log n), as check(); only surfaces with faults are copied.
 class RoundedParts {
  public:
-  RoundedParts(std::span<const Part> parts, const FloatFrame& frame, bool are_one);
+  RoundedParts(std::span<const Part> parts, const FloatFrame& frame, bool are_one,
+               unsigned threads = 1);
 
   /// As good as they could be made; as the frame rounds them they were tested.
   [[nodiscard]] std::span<const Part> parts() const { return parts_; }

@@ -7,7 +7,6 @@
 #include "mesh/adjacency.h"
 #include "mesh/check.h"
 #include "mesh/predicates.h"
-#include "mesh/triangle_pairs.h"
 #include "mesh/vec3.h"
 
 namespace loft::io {
@@ -43,22 +42,14 @@ std::vector<std::uint32_t> find_flat_faces(const Mesh& mesh, RoundingFaults& fau
 }
 
 void find_meeting_faces(const Mesh& mesh, const std::vector<std::uint32_t>& faces,
-                        RoundingFaults& faults) {
-  std::vector<Corners> places;
-  std::vector<TrianglePairs::Vertices> vertices;
-  for (const std::uint32_t f : faces) {
-    places.push_back(corners(mesh, f));
-    vertices.push_back(mesh.faces[f]);
-  }
-  const TrianglePairs pairs(places, vertices, mesh.points.size());
-  const bool are_all = pairs.all_of([&](std::uint32_t i, std::uint32_t j) {
-    if (!triangles_meet(places[i], places[j])) return true;
+                        const Runner& run, RoundingFaults& faults) {
+  const std::size_t all = most_intersections(mesh);
+  const std::size_t most = faults.count < all ? all - faults.count : 1;
+  for (const auto& [f, g] : meeting_faces(mesh, faces, most, run)) {
     ++faults.count;
-    add_corners(vertices[i], faults);
-    add_corners(vertices[j], faults);
-    return faults.count < most_intersections(mesh);
-  });
-  static_cast<void>(are_all);
+    add_corners(mesh.faces[f], faults);
+    add_corners(mesh.faces[g], faults);
+  }
 }
 
 /// Six times the volume of each component, at its first vertex; about that vertex, so that what is
@@ -90,10 +81,11 @@ void find_turned_components(const Mesh& rounded, const Mesh& exact, RoundingFaul
 
 }  // namespace
 
-RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact, const PlaceCounts& counts) {
+RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact, const PlaceCounts& counts,
+                           const Runner& run) {
   RoundingFaults faults;
   find_shared_places(rounded, counts, faults);
-  find_meeting_faces(rounded, find_flat_faces(rounded, faults), faults);
+  find_meeting_faces(rounded, find_flat_faces(rounded, faults), run, faults);
   find_turned_components(rounded, exact, faults);
   std::ranges::sort(faults.vertices);
   faults.vertices.erase(std::unique(faults.vertices.begin(), faults.vertices.end()),

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "io/rounding/place_counts.h"
+#include "mesh/meeting_faces.h"
 #include "mesh/mesh.h"
 
 namespace loft::io {
@@ -19,8 +20,8 @@ struct RoundingFaults {
 
 /// All faults, by exact tests; of pairs of faces as many as check() finds. `exact`: the mesh before
 /// its places were rounded. `counts`: of all vertices that must not share a place.
-/// Cost: O(n log n) in practice.
+/// Cost: O(n log n) in practice, most of it in what `run` gets to do.
 [[nodiscard]] RoundingFaults find_faults(const Mesh& rounded, const Mesh& exact,
-                                         const PlaceCounts& counts);
+                                         const PlaceCounts& counts, const Runner& run);
 
 }  // namespace loft::io

@@ -53,6 +53,32 @@ TEST(Fields, AreWhateverTheOrderOfEdits) {
   EXPECT_GT(compared, cases(2000));
 }
 
+TEST(Fields, AreSoAlsoWhereManyEdgesMeet) {
+  for (unsigned count = 3; count < 40; ++count) {
+    SCOPED_TRACE(count);
+    const auto land = [](Point p) { return 1 + p.x + p.x * p.y; };
+    std::vector<Sample> all{{{0, 0}, 1}};
+    for (unsigned i = 0; i < count; ++i) {
+      const double angle = 2 * 3.141592653589793 * i / count;
+      for (const double radius : {1, 3}) {
+        const Point p{radius * std::cos(angle), radius * std::sin(angle)};
+        all.push_back({p, land(p)});
+      }
+    }
+    Field forwards;
+    for (const Sample& sample : all) forwards.insert(sample);
+    Field backwards;
+    std::reverse(all.begin(), all.end());
+    for (const Sample& sample : all) backwards.insert(sample);
+    for (const Sample& sample : all)
+      ASSERT_EQ(forwards.gradient(sample.place, Smoothness::cubic),
+                backwards.gradient(sample.place, Smoothness::cubic));
+    if (count < 5) continue;  // too few for a quadratic polynomial
+    EXPECT_NEAR(forwards.gradient({0, 0}, Smoothness::cubic)->x, 1, 1e-9);
+    EXPECT_NEAR(forwards.gradient({0, 0}, Smoothness::cubic)->y, 0, 1e-9);
+  }
+}
+
 /// Edges of a field with what is on both sides of them.
 template <class Visit>
 void for_each_free_edge(const Field& field, Visit visit) {

@@ -139,6 +139,33 @@ TEST(RoundedParts, RandomPairsOfSlicesAreSolidsInFloat) {
 }
 
 // GCC 12 left some conversions out where it made vectors of them.
+TEST(RoundedParts, AreTheSameWithSeveralThreads) {
+  std::vector<Surface> surfaces;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const stacks::Pair pair = stacks::random_pair(seed);
+    Options options;
+    options.fill = pair.fill;
+    try {
+      surfaces.push_back(reconstruct(pair.slices, options).surface);
+    } catch (const Error&) {
+      continue;  // nothing with an area
+    }
+  }
+  std::vector<Part> parts;
+  for (const Surface& surface : surfaces) parts.push_back({"", &surface});
+  const Vec3 far{1 << 12, 1 << 12, 1 << 12};  // some bits fewer
+  for (const bool are_one : {false, true}) {
+    const RoundedParts alone(parts, {far, 1}, are_one, 1);
+    EXPECT_GT(alone.rounding().faults, 0U);
+    for (const unsigned threads : {2U, 5U}) {
+      const RoundedParts together(parts, {far, 1}, are_one, threads);
+      EXPECT_EQ(together.rounding(), alone.rounding());
+      for (std::size_t i = 0; i < parts.size(); ++i)
+        EXPECT_EQ(to_mesh(*together.parts()[i].surface), to_mesh(*alone.parts()[i].surface));
+    }
+  }
+}
+
 TEST(FloatFrame, EveryCoordinateIsAFloat) {
   std::vector<Vec3> places;
   for (int i = 0; i < 100; ++i) places.push_back({0.1 * i + 0.1, 0.2 * i + 0.1, 0.3 * i + 0.1});
