@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "mesh/box_tree.h"
+#include "reconstruct/link/beside.h"
 #include "reconstruct/link/bounds.h"
 
 namespace loft {
@@ -51,7 +52,8 @@ struct End {
   bool is_solid;
   double radius;
   std::optional<Trend> trend = {};
-  bool is_speck = false;  // in the slab beside it ends, too
+  bool is_speck = false;                       // in the slab beside it ends, too
+  std::span<const std::uint32_t> joined = {};  // loops of its slice that it is one with there
 };
 
 /// The matching of one slab's ends.
@@ -74,6 +76,7 @@ class Matching {
 
   /// Looks up how the ends move in the slabs on the other side of their slices.
   void look_around(const SlabPieces& below, const SlabPieces& above) {
+    has_neighbour_ = below.pieces != nullptr || above.pieces != nullptr;
     look(below, Level::upper, lower_);
     look(above, Level::lower, upper_);
   }
@@ -84,6 +87,10 @@ class Matching {
     std::vector<bool> is_taken = are_linked(plan.links);
     join(lower_, is_taken, Level::lower, plan.links);
     join(upper_, is_taken, Level::upper, plan.links);
+    if (has_neighbour_) {
+      const auto beside = find_beside(are_linked(plan.links));
+      plan.links.insert(plan.links.end(), beside.begin(), beside.end());
+    }
     is_taken = are_linked(plan.links);
     for (const auto& [piece, lean] : leans)
       if (!is_taken[piece]) plan.leans.push_back(lean);
@@ -179,6 +186,41 @@ class Matching {
     }
   }
 
+  /// Joins ends to what they lie beside.
+  [[nodiscard]] std::vector<EndLink> find_beside(const std::vector<bool>& is_taken) const {
+    std::optional<BesideFinder> finder;
+    std::vector<EndLink> links;
+    for (const Level level : {Level::lower, Level::upper}) {
+      for (const End& end : level == Level::lower ? lower_ : upper_) {
+        if (is_taken[end.piece] || is_named_in_forbidden(end.piece)) continue;
+        if (!finder) finder.emplace(*slab_.lower, *slab_.upper, *slab_.pieces);
+        LooseEnd loose{end.piece, level, end.joined, {}};
+        if (end.trend) loose.expected = expected(end);
+        if (const auto found = finder->find(loose)) add(loose, *found, links);
+      }
+    }
+    return links;
+  }
+
+  /// Of two ends that lie beside each other each goes half of its way.
+  void add(const LooseEnd& end, const Trunk& found, std::vector<EndLink>& links) const {
+    if (max_shift_ && !is_within(length(found.way), *max_shift_)) return;
+    const bool is_lower = end.level == Level::lower;
+    EndLink link{is_lower ? end.piece : found.piece, is_lower ? found.piece : end.piece};
+    if (is_forbidden(link.lower, link.upper)) return;
+    const auto half = [](Point way) { return Point{way.x / 2, way.y / 2}; };
+    const auto same = std::ranges::find_if(links, [&](const EndLink& other) {
+      return other.lower == link.lower && other.upper == link.upper;
+    });
+    if (same != links.end()) {
+      same->lower_way = half(*same->lower_way);
+      same->upper_way = half(found.way);
+      return;
+    }
+    (is_lower ? link.lower_way : link.upper_way) = found.way;
+    links.push_back(link);
+  }
+
   [[nodiscard]] std::optional<EndLink> join(const End& end, Level level,
                                             const Targets& targets) const {
     constexpr double rounding = 1e-9;
@@ -239,17 +281,20 @@ class Matching {
     if (beside.pieces == nullptr || ends.empty()) return;
     const auto& pieces = beside.pieces->pieces;
     const auto matches = Matching(beside, max_shift_, {}).find_links();
-    std::vector<const Piece*> of_loop;  // by the first loop of the common footprint
+    std::vector<const Piece*> of_loop;  // by the loops of the common footprint
     for (const Piece& piece : pieces) {
-      if (piece.footprint(level).is_empty()) continue;
-      const std::uint32_t loop = piece.footprint(level).loops.front();
-      if (of_loop.size() <= loop) of_loop.resize(loop + 1, nullptr);
-      of_loop[loop] = &piece;
+      for (const std::uint32_t loop : piece.footprint(level).loops) {
+        if (of_loop.size() <= loop) of_loop.resize(loop + 1, nullptr);
+        of_loop[loop] = &piece;
+      }
     }
     for (End& end : ends) {
       const std::uint32_t loop = end.footprint->loops.front();
       const Piece* piece = loop < of_loop.size() ? of_loop[loop] : nullptr;
-      if (piece == nullptr || piece->footprint(level).parts != 1) continue;
+      if (piece == nullptr) continue;
+      end.joined = piece->footprint(level).loops;
+      if (piece->footprint(level).parts != 1 || piece->footprint(level).loops.front() != loop)
+        continue;
       const Footprint* far = &piece->footprint(other(level));
       if (far->is_empty()) {
         const auto match = std::ranges::find_if(matches, [&](const EndLink& link) {
@@ -340,6 +385,7 @@ class Matching {
   const SlabPieces& slab_;
   std::optional<double> max_shift_;
   std::span<const EndLink> forbidden_;
+  bool has_neighbour_ = false;  // a slab below or above
   std::vector<End> lower_;
   std::vector<End> upper_;
   std::vector<Pair> pairs_;

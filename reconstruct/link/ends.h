@@ -16,6 +16,8 @@ namespace loft {
 struct SlabPieces {
   const Pieces* pieces = nullptr;  ///< null: there is no such slab
   double gap = 0;                  ///< its height
+  const Region* lower = nullptr;   ///< its slices; needed of the slab at hand only
+  const Region* upper = nullptr;
 };
 
 /// Two ends of a slab that belong together, or an end and what it is a branch of.
@@ -23,7 +25,11 @@ struct EndLink {
   std::uint32_t lower = 0;  ///< index of the piece that ends, or whose lower footprint is meant
   std::uint32_t upper = 0;  ///< index of the piece that begins, or whose upper footprint is meant
   LinkReason reason = LinkReason::nearest;
+  /// Of an end that lies beside what it is joined to: what brings it over that (BesideFinder).
+  std::optional<cdt::Point> lower_way = {};
+  std::optional<cdt::Point> upper_way = {};
 
+  [[nodiscard]] bool is_beside() const { return lower_way || upper_way; }
   friend bool operator==(const EndLink&, const EndLink&) = default;
 };
 
@@ -62,6 +68,10 @@ struct EndPlan {
 /// other slice that is none (the other index is that piece's) if its predicted place is within
 /// that, taken as a circle, or beside it by at most a quarter of its own radius: a branch of a fork
 /// that has gone too far to overlap it. What it joins has at least half its area.
+///
+/// An end that is linked with nothing by then is joined to a part of the other slice that it lies
+/// beside (BesideFinder), where it is, or where it is expected if its trend is known; not where
+/// these two slices are all there are.
 ///
 /// An end that is linked with nothing leans as it came, if its trend is known: less what its radius
 /// has changed by (what shrinks at one side moves its centroid by as much, and goes nowhere), no

@@ -15,6 +15,10 @@ namespace {
 
 /// Joining ends to what goes on beside them leaves no more of all their differences than that.
 constexpr double most_of_joined = 0.9;
+/// Where ends lie beside others, they must take away at least that share of the smaller areas; all
+/// of it, if half of these come to lie over each other.
+constexpr double least_of_beside = 0.5;
+constexpr double shorter_way = 0.7;
 
 /// The outer loops of a footprint, or the holes in it.
 Footprint loops(const Region& region, const Footprint& whole, bool is_solid, bool is_outer) {
@@ -81,22 +85,46 @@ std::vector<cdt::Point> ways_of_ends(const Pieces& pieces, std::span<const EndLi
     const bool is_lower = level == Level::lower;
     const Piece& own = pieces.pieces[is_lower ? link.lower : link.upper];
     const Piece& joined = pieces.pieces[is_lower ? link.upper : link.lower];
-    if (!own.is_end()) continue;
+    const auto& beside = is_lower ? link.lower_way : link.upper_way;
+    if (!own.is_end() || (link.is_beside() && !beside)) continue;
     const cdt::Point from = own.footprint(level).centroid;
     const cdt::Point to = joined.footprint(other(level)).centroid;
     for (const std::uint32_t loop : own.footprint(level).loops) {
       const auto place = std::ranges::find(loops, loop);
       if (place != loops.end())
-        ways[static_cast<std::size_t>(place - loops.begin())] = {to.x - from.x, to.y - from.y};
+        ways[static_cast<std::size_t>(place - loops.begin())] =
+            beside.value_or(cdt::Point{to.x - from.x, to.y - from.y});
     }
   }
   return ways;
 }
 
-/// Whether all outlines are joined by one surface.
+/// Whether all outlines are joined by one surface. Those of other pieces have no tiles.
 bool is_one(const Region& lower, const Region& upper, const Moved& moved) {
   const Pieces pieces = find_pieces(lower, upper, moved.tiles);
-  return std::ranges::count(pieces.pieces, moved.piece.is_solid, &Piece::is_solid) == 1;
+  std::vector<bool> has_tiles(pieces.pieces.size());
+  for (const std::uint32_t piece : pieces.of_tile) has_tiles[piece] = true;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < has_tiles.size(); ++i)
+    count += has_tiles[i] && pieces.pieces[i].is_solid == moved.piece.is_solid ? 1 : 0;
+  return count == 1;
+}
+
+/// What links leave of the differences of what they join, at most.
+double most_difference(const Pieces& pieces, std::span<const EndLink> links, double before) {
+  double beside = 0;
+  for (const EndLink& link : links)
+    if (link.is_beside())
+      beside +=
+          std::min(pieces.pieces[link.lower].lower.area, pieces.pieces[link.upper].upper.area);
+  return beside > 0 ? before - least_of_beside * beside : most_of_joined * before;
+}
+
+/// Where what an end comes to lie over has no room for it.
+LoopWays shortened(LoopWays ways) {
+  for (auto* const some : {&ways.lower, &ways.upper})
+    for (cdt::Point& way : *some) way = {shorter_way * way.x, shorter_way * way.y};
+  return ways;
 }
 
 /// Ends, and what goes on beside them, as one piece. None if no more than they are by themselves.
@@ -115,14 +143,23 @@ std::optional<Replacement> join(const Region& lower, const Region& upper, const 
   std::ranges::sort(whole.upper.loops);
   measure(lower, whole.lower);
   measure(upper, whole.upper);
-  const auto is_wanted = [&](const Registered& made) {
-    return is_within(made.difference, most_of_joined * before);
-  };
+  const double most = most_difference(pieces, links, before);
+  const auto is_wanted = [&](const Registered& made) { return is_within(made.difference, most); };
   const LoopWays ways{ways_of_ends(pieces, links, Level::lower, whole.lower.loops),
                       ways_of_ends(pieces, links, Level::upper, whole.upper.loops)};
-  auto moved = move_by_places(lower, upper, whole, is_wanted, ways);
-  if (!moved || !is_one(lower, upper, *moved)) return {};
-  moved->piece.reason = LinkReason::predicted;
+  const auto one = [&](std::optional<Moved> moved) {
+    if (moved && !is_one(lower, upper, *moved)) moved.reset();
+    return moved;
+  };
+  const bool are_beside = std::ranges::any_of(links, &EndLink::is_beside);
+  auto moved = one(move_by_places(lower, upper, whole, is_wanted, ways));
+  if (!moved && are_beside) moved = one(move_by_ways(lower, upper, whole, is_wanted, ways));
+  if (!moved && are_beside)
+    moved = one(move_by_places(lower, upper, whole, is_wanted, shortened(ways)));
+  if (!moved && are_beside)
+    moved = one(move_by_ways(lower, upper, whole, is_wanted, shortened(ways)));
+  if (!moved) return {};
+  moved->piece.reason = are_beside ? LinkReason::nearest : LinkReason::predicted;
   moved->piece.bends = true;
   return replacement(std::move(*moved), {members.begin(), members.end()});
 }
@@ -153,32 +190,46 @@ std::optional<Replacement> link_two(const Region& lower, const Region& upper, co
   return {};
 }
 
-}  // namespace
+/// Links that lead to no joint piece.
+using Unmet = std::vector<EndLink>;
 
-void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
-               std::span<const EndLink> links) {
-  std::vector<Replacement> replacements;
+/// Joins what links join directly or not, but for pairs of ends that do not lie beside each other.
+Unmet join_groups(const Region& lower, const Region& upper, const Pieces& pieces,
+                  std::span<const EndLink> links, std::span<const double> differences,
+                  std::vector<Replacement>& replacements) {
   const std::vector<std::uint32_t> group = groups(pieces.pieces.size(), links);
   std::vector<std::vector<std::uint32_t>> members(group.size());
   std::vector<std::vector<EndLink>> links_of(group.size());
   for (const EndLink& link : links) links_of[group[link.lower]].push_back(link);
   for (std::uint32_t i = 0; i < group.size(); ++i) members[group[i]].push_back(i);
-  const auto are_ends = [&](const EndLink& link) {
-    return pieces.pieces[link.lower].is_end() && pieces.pieces[link.upper].is_end();
-  };
-  std::vector<double> before;
-  std::vector<bool> is_joined(group.size());
-  for (const EndLink& link : links) {
-    const std::uint32_t first = group[link.lower];
-    if (is_joined[first] || (members[first].size() == 2 && are_ends(link))) continue;
-    is_joined[first] = true;
-    if (before.empty()) before = differences(lower, upper, tiles, pieces);
-    auto joined = join(lower, upper, pieces, links_of[first], before, members[first]);
-    is_joined[first] = joined.has_value();
-    if (joined) replacements.push_back(std::move(*joined));
+  Unmet unmet;
+  for (std::uint32_t i = 0; i < group.size(); ++i) {
+    if (links_of[i].empty()) continue;
+    const EndLink& first = links_of[i].front();
+    const bool is_pair = members[i].size() == 2 && pieces.pieces[first.lower].is_end() &&
+                         pieces.pieces[first.upper].is_end() && !first.is_beside();
+    std::optional<Replacement> joined;
+    if (!is_pair) joined = join(lower, upper, pieces, links_of[i], differences, members[i]);
+    if (joined)
+      replacements.push_back(std::move(*joined));
+    else
+      unmet.insert(unmet.end(), links_of[i].begin(), links_of[i].end());
   }
-  for (const EndLink& link : links) {
-    if (is_joined[group[link.lower]] || !are_ends(link)) continue;
+  return unmet;
+}
+
+}  // namespace
+
+void link_ends(const Region& lower, const Region& upper, TileSet& tiles, Pieces& pieces,
+               std::span<const EndLink> links) {
+  if (links.empty()) return;
+  std::vector<Replacement> replacements;
+  const std::vector<double> before = differences(lower, upper, tiles, pieces);
+  Unmet left = join_groups(lower, upper, pieces, links, before, replacements);
+  if (std::erase_if(left, [](const EndLink& link) { return link.is_beside(); }) != 0)
+    left = join_groups(lower, upper, pieces, left, before, replacements);
+  for (const EndLink& link : left) {
+    if (!pieces.pieces[link.lower].is_end() || !pieces.pieces[link.upper].is_end()) continue;
     if (auto linked = link_two(lower, upper, pieces, link))
       replacements.push_back(std::move(*linked));
   }

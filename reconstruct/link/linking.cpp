@@ -34,7 +34,7 @@ void Linking::tile(std::size_t slab, TileWorkspace& workspace) {
 
 SlabPieces Linking::view(std::size_t slab) const {
   if (slab >= slab_bound()) return {};
-  return {&at(slab).pieces, region(slab + 1).z - region(slab).z};
+  return {&at(slab).pieces, region(slab + 1).z - region(slab).z, &region(slab), &region(slab + 1)};
 }
 
 void Linking::match(std::size_t slab) {

@@ -101,6 +101,13 @@ std::optional<Moved> move_by_places(const Region& lower, const Region& upper, co
       tile_registered_by_places(alone.lower(), alone.upper(), alone.most_pairs(), is_wanted, ways));
 }
 
+std::optional<Moved> move_by_ways(const Region& lower, const Region& upper, const Piece& piece,
+                                  const IsWanted& is_wanted, const LoopWays& ways) {
+  const Alone alone(lower, upper, piece);
+  return alone.moved(
+      tile_registered_by_ways(alone.lower(), alone.upper(), alone.most_pairs(), is_wanted, ways));
+}
+
 Replacement replacement(Moved moved, std::vector<std::uint32_t> replaced) {
   const std::size_t count = moved.tiles.tiles.size();
   return {std::move(moved.tiles),

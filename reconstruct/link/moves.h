@@ -49,6 +49,11 @@ struct Moved {
                                                   const Piece& piece, const IsWanted& is_wanted,
                                                   const LoopWays& ways = {});
 
+/// Loops that have ways by these, over what the others match with among themselves.
+[[nodiscard]] std::optional<Moved> move_by_ways(const Region& lower, const Region& upper,
+                                                const Piece& piece, const IsWanted& is_wanted,
+                                                const LoopWays& ways);
+
 /// Puts it into the place of some pieces.
 [[nodiscard]] Replacement replacement(Moved moved, std::vector<std::uint32_t> replaced);
 

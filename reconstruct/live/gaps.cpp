@@ -111,7 +111,8 @@ bool Gaps::has_neighbours(std::size_t i) const {
 
 SlabPieces Gaps::view(std::size_t i) const {
   if (i >= gaps_.size()) return {};
-  return {gaps_[i].slab().found.get(), gaps_[i].height()};
+  return {gaps_[i].slab().found.get(), gaps_[i].height(), gaps_[i].lower->region.get(),
+          gaps_[i].upper->region.get()};
 }
 
 namespace {

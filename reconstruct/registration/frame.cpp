@@ -63,12 +63,13 @@ void Frame::lift_anew(TileSet& tiles) const {
   for (InnerVertex& inner : tiles.inner) {
     if (!is_steiner(inner)) continue;
     const Point p{inner.place[0], inner.place[1]};
-    const double share = height_share(lower_moved.distance(p), upper_moved.distance(p));
+    const double share = height_share(lower_moved.distance(p), upper_moved.distance(p), height);
     if (!(std::abs(inner.place[2] - (lower_.z + share * height)) <= rounding * height)) continue;
     const Point u = lower_ways_.at(p);
     const Point v = upper_ways_.at(p);
-    inner.place[2] = lower_.z + height * height_share(lower.distance({p.x - u.x, p.y - u.y}),
-                                                      upper.distance({p.x - v.x, p.y - v.y}));
+    inner.place[2] =
+        lower_.z + height * height_share(lower.distance({p.x - u.x, p.y - u.y}),
+                                         upper.distance({p.x - v.x, p.y - v.y}), height);
   }
 }
 

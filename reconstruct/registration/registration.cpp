@@ -154,8 +154,12 @@ class Registration {
   /// (Besl and McKay, 1992), where each loop has gone its way since the round before.
   bool match_places(const LoopWays& ways) {
     if (!(thickness_ > 0)) return false;
-    const AllStretches below = all_stretches(lower_, perimeter(lower_) / stretch_count());
-    const AllStretches above = all_stretches(upper_, perimeter(upper_) / stretch_count());
+    match_places(all_stretches(lower_, perimeter(lower_) / stretch_count()),
+                 all_stretches(upper_, perimeter(upper_) / stretch_count()), ways);
+    return true;
+  }
+
+  void match_places(const AllStretches& below, const AllStretches& above, const LoopWays& ways) {
     outlines_.assign(1, {below.stretches, above.stretches});
     std::vector<Stretch> lower = moved(below, ways.lower);
     std::vector<Stretch> upper = moved(above, ways.upper);
@@ -166,6 +170,27 @@ class Registration {
       lower = moved(below, ways_of_loops(below, lower_pulls_));
       upper = moved(above, ways_of_loops(above, upper_pulls_));
     }
+  }
+
+  /// Some loops by their ways over what the others match with; these as if they were not there.
+  bool follow(const LoopWays& ways) {
+    if (!(thickness_ > 0)) return false;
+    const AllStretches below = all_stretches(lower_, perimeter(lower_) / stretch_count());
+    const AllStretches above = all_stretches(upper_, perimeter(upper_) / stretch_count());
+    const AllStretches lower = staying(below, ways.lower);
+    const AllStretches upper = staying(above, ways.upper);
+    if (lower.stretches.empty() || upper.stretches.empty()) {
+      lower_pulls_ = without_way(lower);
+      upper_pulls_ = without_way(upper);
+    } else {
+      match_places(lower, upper, {});
+    }
+    const Affine lower_half = lower_pulls_.empty() ? Affine{} : fit_affine(lower_pulls_);
+    const Affine upper_half = upper_pulls_.empty() ? Affine{} : fit_affine(upper_pulls_);
+    add_followers(below, ways.lower, upper_half, lower_pulls_);
+    add_followers(above, ways.upper, lower_half, upper_pulls_);
+    lower_half_ = fit_affine(lower_pulls_);
+    upper_half_ = fit_affine(upper_pulls_);
     return true;
   }
 
@@ -196,6 +221,35 @@ class Registration {
   [[nodiscard]] double stretch_count() const {
     const double length = std::max(perimeter(lower_), perimeter(upper_));
     return stretches_of_place * std::clamp(length / thickness_, fewest_places, most_places);
+  }
+
+  /// The stretches of loops that have no way of their own.
+  [[nodiscard]] static AllStretches staying(const AllStretches& all, std::span<const Point> ways) {
+    AllStretches staying;
+    for (std::size_t i = 0; i < all.stretches.size(); ++i) {
+      if (ways[all.loops[i]] != Point{}) continue;
+      staying.stretches.push_back(all.stretches[i]);
+      staying.loops.push_back(all.loops[i]);
+    }
+    return staying;
+  }
+
+  [[nodiscard]] static std::vector<Pull> without_way(const AllStretches& all) {
+    std::vector<Pull> pulls;
+    for (const Stretch& stretch : all.stretches) pulls.push_back({stretch, {}, stretch.length});
+    return pulls;
+  }
+
+  /// Pulls of loops that go to where something else is, which goes its own way.
+  static void add_followers(const AllStretches& all, std::span<const Point> ways,
+                            const Affine& other, std::vector<Pull>& pulls) {
+    for (std::size_t i = 0; i < all.stretches.size(); ++i) {
+      const Point way = ways[all.loops[i]];
+      if (way == Point{}) continue;
+      const Stretch& stretch = all.stretches[i];
+      const Point further = other.way({stretch.middle.x + way.x, stretch.middle.y + way.y});
+      pulls.push_back({stretch, {way.x + further.x, way.y + further.y}, stretch.length});
+    }
   }
 
   void sample(const std::vector<LoopPair>& pairs) {
@@ -331,6 +385,17 @@ std::optional<Registered> tile_registered_by_places(const Region& lower, const R
                                                     const LoopWays& ways) {
   Registration registration(lower, upper);
   if (!registration.match_places(ways)) return {};
+  auto draught = draw(lower, upper, registration, most_pairs);
+  if (!draught || !is_wanted(draught->registered)) return {};
+  if (!put_back(lower, upper, registration.thickness(), *draught, most_pairs)) return {};
+  return std::move(draught->registered);
+}
+
+std::optional<Registered> tile_registered_by_ways(const Region& lower, const Region& upper,
+                                                  std::size_t most_pairs, const IsWanted& is_wanted,
+                                                  const LoopWays& ways) {
+  Registration registration(lower, upper);
+  if (!registration.follow(ways)) return {};
   auto draught = draw(lower, upper, registration, most_pairs);
   if (!draught || !is_wanted(draught->registered)) return {};
   if (!put_back(lower, upper, registration.thickness(), *draught, most_pairs)) return {};

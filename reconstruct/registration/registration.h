@@ -60,4 +60,12 @@ struct LoopWays {
                                                                   const IsWanted& is_wanted,
                                                                   const LoopWays& ways = {});
 
+/// The same where loops with ways (not 0) are moved by these, over what the others become, which
+/// are matched as if they were alone.
+[[nodiscard]] std::optional<Registered> tile_registered_by_ways(const Region& lower,
+                                                                const Region& upper,
+                                                                std::size_t most_pairs,
+                                                                const IsWanted& is_wanted,
+                                                                const LoopWays& ways);
+
 }  // namespace loft

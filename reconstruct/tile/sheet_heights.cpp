@@ -50,6 +50,16 @@ double height_share(double to_lower, double to_upper) {
   return std::clamp(share, least_share, 1 - least_share);
 }
 
+double height_share(double to_lower, double to_upper, double height) {
+  const double share = height_share(to_lower, to_upper);
+  const double near = std::min(to_lower, to_upper);
+  const double far = std::max(to_lower, to_upper);
+  if (!(far > 0)) return share;
+  const double apart = 1 - near / far;
+  const double bulge = std::min(near / height, highest_end) * apart * apart * apart;
+  return to_lower < to_upper ? std::max(share, bulge) : std::min(share, 1 - bulge);
+}
+
 SheetHeights::SheetHeights(const Slab& slab)
     : slab_(slab),
       sheet_of_(slab.overlay().triangle_bound(), Origin::none),
@@ -65,7 +75,7 @@ double SheetHeights::height(EdgeId e, Point p) {
   } else if (!sheet.touches_lower) {
     share = 1 - end_share(sheet, p);
   } else {
-    share = height_share(sheet.lower.distance(p), sheet.upper.distance(p));
+    share = height_share(sheet.lower.distance(p), sheet.upper.distance(p), slab_.height());
   }
   assert(std::isfinite(share));
   return slab_.lower().z + std::clamp(share, least_share, 1 - least_share) * slab_.height();

@@ -14,6 +14,9 @@ namespace loft {
 /// The share of a slab's height at which the surface is over a place with these distances from
 /// contours of the lower and of the upper slice, strictly between 0 and 1; see SheetHeights.
 [[nodiscard]] double height_share(double to_lower, double to_upper);
+/// The same in a slab of that height: where the contours of one slice are much farther away than
+/// those of the other, as in a spur, its surface is as round as an end's.
+[[nodiscard]] double height_share(double to_lower, double to_upper, double height);
 
 /// Triangles of a sheet with corners on one circle: but for rounding, any other diagonals are as
 /// good.
@@ -39,7 +42,10 @@ class SheetHeights {
   /// Between contours of both slices, their distances a and b share the slab: a^k / (a^k + b^k).
   /// k = 1 is shape-based interpolation (Raya and Udupa, 1990). With k = 0.7 the surface leaves
   /// the contours more steeply, as round forks do: on 11 stacks cut from known shapes it came 0 to
-  /// 3% nearer to them.
+  /// 3% nearer to them. In spurs, far from the other slice's contours, what is d away from their
+  /// own is at least as high as it is deep, up to 0.7 of the slab, as in an end; times (1 - d /
+  /// D)^3, D the larger distance, so that this ends where the other contour begins. On 40 stacks,
+  /// sparse ones foremost, that took up to 4% off the distance to the shape, and added 1.2% on one.
   /// In an end it is a paraboloid, as high as the sheet is deep, from 0.05 to at most 0.7 of the
   /// slab: a smooth shape's last slice is as likely to be at any height below its top, and the
   /// area of what is beyond grows with that height, so that half of all such area is in ends
