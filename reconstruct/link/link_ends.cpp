@@ -106,7 +106,7 @@ bool is_one(const Region& lower, const Region& upper, const Moved& moved) {
   for (const std::uint32_t piece : pieces.of_tile) has_tiles[piece] = true;
   std::size_t count = 0;
   for (std::size_t i = 0; i < has_tiles.size(); ++i)
-    count += has_tiles[i] && pieces.pieces[i].is_solid == moved.piece.is_solid ? 1 : 0;
+    if (has_tiles[i] && pieces.pieces[i].is_solid == moved.piece.is_solid) ++count;
   return count == 1;
 }
 

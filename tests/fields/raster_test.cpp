@@ -48,7 +48,9 @@ TEST(Raster, HasThemAlsoWhereRowsAreClose) {
         for (std::size_t column = 0; column < grid.columns; ++column) {
           const std::optional<double> value = field.value(grid.place(row, column), smoothness);
           ASSERT_EQ(value.has_value(), values[column] == values[column]);
-          if (value) ASSERT_EQ(values[column], *value);
+          if (value) {
+            ASSERT_EQ(values[column], *value);
+          }
         }
       });
   }
