@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
@@ -274,7 +275,7 @@ class BoxPyramid {
   }
   /// On usual surfaces it takes ten for each face.
   [[nodiscard]] std::size_t patience() const {
-    return 10'000 + 200 * (items_.size() / task_count());
+    return 10'000 + 100 * (items_.size() / task_count());
   }
 
   struct Item {
@@ -371,15 +372,16 @@ class BoxPyramid {
 std::optional<std::vector<FacePair>> meeting_by_boxes(const BoxPyramid& boxes, const FaceTest& test,
                                                       std::size_t most, const Runner& run) {
   std::vector<std::vector<FacePair>> found(boxes.task_count());
-  std::vector<char> are_all(boxes.task_count());
+  std::atomic<bool> gives_up = false;  // one that does is enough
   run(boxes.task_count(), [&](std::size_t task) {
+    if (gives_up) return;
     const auto look_at = [&](const Face& f, const Face& g) {
       if (test.meet(f, g)) found[task].emplace_back(std::minmax(f.number, g.number));
       return found[task].size() < most;
     };
-    are_all[task] = boxes.all_of(task, look_at) ? 1 : 0;
+    if (!boxes.all_of(task, look_at)) gives_up = true;
   });
-  if (std::ranges::find(are_all, 0) != are_all.end()) return std::nullopt;
+  if (gives_up) return std::nullopt;
   std::vector<FacePair> result;
   for (const auto& pairs : found) result.insert(result.end(), pairs.begin(), pairs.end());
   return result.size() < most ? std::optional(result) : std::nullopt;
