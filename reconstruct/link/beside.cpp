@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "reconstruct/link/bounds.h"
+#include "reconstruct/plane/nearest.h"
 
 namespace loft {
 
@@ -30,21 +31,12 @@ constexpr double stretches_around = 64;
 /// Gaps that differ by less than that share of a radius may do so by rounding.
 constexpr double rounding_of_gap = 1e-9;
 
-Point foot(Point p, const Segment& edge) {
-  const auto& [a, b] = edge;
-  const Point way{b.x - a.x, b.y - a.y};
-  const double squared = way.x * way.x + way.y * way.y;
-  const double along = (p.x - a.x) * way.x + (p.y - a.y) * way.y;
-  const double share = squared > 0 ? std::clamp(along / squared, 0.0, 1.0) : 0;
-  return {a.x + share * way.x, a.y + share * way.y};
-}
-
 /// From a place to the nearest one of an outline.
 Point way_to(const SegmentTree& outline, Point p) {
   double least = std::numeric_limits<double>::infinity();
   Point nearest;
   outline.visit_near(p, least, [&](const Segment& edge) {
-    const Point q = foot(p, edge);
+    const Point q = foot(p, edge[0], edge[1]);
     const Point way{q.x - p.x, q.y - p.y};
     const double squared = way.x * way.x + way.y * way.y;
     if (squared < least) {

@@ -147,17 +147,17 @@ std::optional<Replacement> join(const Region& lower, const Region& upper, const 
   const auto is_wanted = [&](const Registered& made) { return is_within(made.difference, most); };
   const LoopWays ways{ways_of_ends(pieces, links, Level::lower, whole.lower.loops),
                       ways_of_ends(pieces, links, Level::upper, whole.upper.loops)};
-  const auto one = [&](std::optional<Moved> moved) {
-    if (moved && !is_one(lower, upper, *moved)) moved.reset();
-    return moved;
-  };
   const bool are_beside = std::ranges::any_of(links, &EndLink::is_beside);
-  auto moved = one(move_by_places(lower, upper, whole, is_wanted, ways));
-  if (!moved && are_beside) moved = one(move_by_ways(lower, upper, whole, is_wanted, ways));
-  if (!moved && are_beside)
-    moved = one(move_by_places(lower, upper, whole, is_wanted, shortened(ways)));
-  if (!moved && are_beside)
-    moved = one(move_by_ways(lower, upper, whole, is_wanted, shortened(ways)));
+  const auto move_as_one = [&](const LoopWays& some) {
+    auto made = move_by_places(lower, upper, whole, is_wanted, some);
+    if (made && is_one(lower, upper, *made)) return made;
+    made.reset();
+    if (are_beside) made = move_by_ways(lower, upper, whole, is_wanted, some);
+    if (made && !is_one(lower, upper, *made)) made.reset();
+    return made;
+  };
+  auto moved = move_as_one(ways);
+  if (!moved && are_beside) moved = move_as_one(shortened(ways));
   if (!moved) return {};
   moved->piece.reason = are_beside ? LinkReason::nearest : LinkReason::predicted;
   moved->piece.bends = true;

@@ -22,6 +22,15 @@ double squared_distance(cdt::Point p, cdt::Point a, cdt::Point b) {
 
 }  // namespace
 
+cdt::Point foot(cdt::Point p, cdt::Point a, cdt::Point b) {
+  const cdt::Point along{b.x - a.x, b.y - a.y};
+  const double t = (p.x - a.x) * along.x + (p.y - a.y) * along.y;
+  const double length = along.x * along.x + along.y * along.y;
+  if (!(t > 0)) return a;
+  if (t >= length) return b;
+  return {a.x + t / length * along.x, a.y + t / length * along.y};
+}
+
 double distance(cdt::Point p, cdt::Point a, cdt::Point b) {
   return std::sqrt(squared_distance(p, a, b));
 }

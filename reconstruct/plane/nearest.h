@@ -24,6 +24,9 @@ class NearestSegment {
   SegmentTree tree_;
 };
 
+/// The foot of p on the segment ab; exactly a or b where it is an end.
+[[nodiscard]] cdt::Point foot(cdt::Point p, cdt::Point a, cdt::Point b);
+
 /// The distance from p to the segment ab.
 [[nodiscard]] double distance(cdt::Point p, cdt::Point a, cdt::Point b);
 

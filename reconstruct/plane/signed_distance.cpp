@@ -5,21 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "reconstruct/plane/nearest.h"
+
 namespace loft {
 
 namespace {
 
 using cdt::Point;
-
-/// The foot of p on the segment ab; exactly a or b where it is an end.
-Point foot(Point p, Point a, Point b) {
-  const Point along{b.x - a.x, b.y - a.y};
-  const double t = (p.x - a.x) * along.x + (p.y - a.y) * along.y;
-  const double length = along.x * along.x + along.y * along.y;
-  if (!(t > 0)) return a;
-  if (t >= length) return b;
-  return {a.x + t / length * along.x, a.y + t / length * along.y};
-}
 
 /// The edge that is the nearest one to p. Where a corner is nearest, that of the next one around it
 /// decides on which side of the boundary p is: the one that deviates least from the direction to p.

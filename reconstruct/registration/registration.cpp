@@ -154,8 +154,7 @@ class Registration {
   /// (Besl and McKay, 1992), where each loop has gone its way since the round before.
   bool match_places(const LoopWays& ways) {
     if (!(thickness_ > 0)) return false;
-    match_places(all_stretches(lower_, perimeter(lower_) / stretch_count()),
-                 all_stretches(upper_, perimeter(upper_) / stretch_count()), ways);
+    match_places(stretches_of(lower_), stretches_of(upper_), ways);
     return true;
   }
 
@@ -175,8 +174,8 @@ class Registration {
   /// Some loops by their ways over what the others match with; these as if they were not there.
   bool follow(const LoopWays& ways) {
     if (!(thickness_ > 0)) return false;
-    const AllStretches below = all_stretches(lower_, perimeter(lower_) / stretch_count());
-    const AllStretches above = all_stretches(upper_, perimeter(upper_) / stretch_count());
+    const AllStretches below = stretches_of(lower_);
+    const AllStretches above = stretches_of(upper_);
     const AllStretches lower = staying(below, ways.lower);
     const AllStretches upper = staying(above, ways.upper);
     if (lower.stretches.empty() || upper.stretches.empty()) {
@@ -221,6 +220,10 @@ class Registration {
   [[nodiscard]] double stretch_count() const {
     const double length = std::max(perimeter(lower_), perimeter(upper_));
     return stretches_of_place * std::clamp(length / thickness_, fewest_places, most_places);
+  }
+
+  [[nodiscard]] AllStretches stretches_of(const Region& region) const {
+    return all_stretches(region, perimeter(region) / stretch_count());
   }
 
   /// The stretches of loops that have no way of their own.
@@ -359,6 +362,16 @@ bool put_back(const Region& lower, const Region& upper, double thickness, Draugh
   return !tiles_meet(lower, upper, tiles, most_pairs);
 }
 
+/// The one way there is; none if it is not wanted, or its tiles meet.
+std::optional<Registered> tile_as_matched(const Region& lower, const Region& upper,
+                                          const Registration& registration, std::size_t most_pairs,
+                                          const IsWanted& is_wanted) {
+  auto draught = draw(lower, upper, registration, most_pairs);
+  if (!draught || !is_wanted(draught->registered)) return {};
+  if (!put_back(lower, upper, registration.thickness(), *draught, most_pairs)) return {};
+  return std::move(draught->registered);
+}
+
 }  // namespace
 
 std::optional<Registered> tile_registered(const Region& lower, const Region& upper,
@@ -385,10 +398,7 @@ std::optional<Registered> tile_registered_by_places(const Region& lower, const R
                                                     const LoopWays& ways) {
   Registration registration(lower, upper);
   if (!registration.match_places(ways)) return {};
-  auto draught = draw(lower, upper, registration, most_pairs);
-  if (!draught || !is_wanted(draught->registered)) return {};
-  if (!put_back(lower, upper, registration.thickness(), *draught, most_pairs)) return {};
-  return std::move(draught->registered);
+  return tile_as_matched(lower, upper, registration, most_pairs, is_wanted);
 }
 
 std::optional<Registered> tile_registered_by_ways(const Region& lower, const Region& upper,
@@ -396,10 +406,7 @@ std::optional<Registered> tile_registered_by_ways(const Region& lower, const Reg
                                                   const LoopWays& ways) {
   Registration registration(lower, upper);
   if (!registration.follow(ways)) return {};
-  auto draught = draw(lower, upper, registration, most_pairs);
-  if (!draught || !is_wanted(draught->registered)) return {};
-  if (!put_back(lower, upper, registration.thickness(), *draught, most_pairs)) return {};
-  return std::move(draught->registered);
+  return tile_as_matched(lower, upper, registration, most_pairs, is_wanted);
 }
 
 }  // namespace loft

@@ -56,6 +56,12 @@ Vec3 middle(const Vec3& a, const Vec3& b) {
   return along(first, 0.5, minus(std::max(a, b), first));
 }
 
+/// A way, cut off where it is longer than `most`.
+Vec3 cut_off(const Vec3& way, double most) {
+  const double distance = length(way);
+  return distance > most ? along({}, most / distance, way) : way;
+}
+
 /// What a connected piece of the tiles is bent to; nothing if its slices do not tell.
 using Shape = std::variant<std::monostate, SmoothPassage, SmoothEnd>;
 
@@ -224,8 +230,7 @@ class Smoothing {
       way = along(way, -sample.value / (steepness * steepness), sample.gradient);
       const double least = least_share * height();
       way[2] = std::clamp(p[2] + way[2], lower_.z + least, upper_.z - least) - p[2];
-      if (const double distance = length(way); distance > most)
-        way = along({}, most / distance, way);
+      way = cut_off(way, most);
     }
     return way;
   }
@@ -284,7 +289,7 @@ class Smoothing {
       const Vec3 bent = way_to(shapes_[piece], start, most + given, facing);
       way = along(bent, 1 - freedom, minus(way, bent));
     }
-    if (const double bend = length(way); bend > most) way = along({}, most / bend, way);
+    way = cut_off(way, most);
     if (!(length(way) > coarseness * height())) return none;
     node = contour_count_ + static_cast<std::uint32_t>(tiles_.inner.size());
     tiles_.inner.push_back({along(start, 1, way), VertexKind::steiner});
