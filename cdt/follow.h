@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -29,8 +30,11 @@ namespace loft::cdt {
 /// part there is right already. From there values spread through the part, and where they meet a
 /// triangle that stayed and had another value, on through those that stayed until nothing changes.
 ///
-/// Cost of follow(): O(m log m + changed) for m made and unmade triangles and `changed` others
-/// whose value changes. Values are compared by ==.
+/// Triangles that have only moved count to those that stayed: between these, values are right as
+/// they were.
+///
+/// Cost of follow(): O(m log m + changed) for m triangles that were made or unmade and not only
+/// moved, and `changed` others whose value changes. Values are compared by ==.
 template <class Value, class Cross>
 class Follower {
  public:
@@ -45,6 +49,7 @@ class Follower {
   void begin() {
     values_ = flood(*mesh_, outside_, cross_);
     part_.assign(values_.size(), unmade);
+    remade_.clear();
     changed_.clear();
   }
 
@@ -53,9 +58,11 @@ class Follower {
     changed_.clear();
     values_.resize(mesh_->triangle_bound(), outside_);
     part_.resize(values_.size(), unmade);
-    for (const TriangleId t : changes.unmade)
+    leave_out_moved(changes.unmade, changes.moved);
+    for (const TriangleId t : remade_)
       if (t.index() < values_.size()) values_[t.index()] = outside_;
-    gather_parts(changes.made);
+    leave_out_moved(changes.made, changes.moved);
+    gather_parts(remade_);
     for (const Part& part : parts_) spread(part);
   }
 
@@ -66,7 +73,9 @@ class Follower {
   /// By the ids of triangles; `outside` where there is none.
   [[nodiscard]] const std::vector<Value>& values() const { return values_; }
 
-  /// The triangles that stayed in the last follow() and have another value since, in no order.
+  /// The triangles that were made in the last follow() and have not only moved, sorted.
+  [[nodiscard]] std::span<const TriangleId> remade() const { return remade_; }
+  /// The others that have another value since, in no order.
   [[nodiscard]] std::span<const TriangleId> changed() const { return changed_; }
 
  private:
@@ -89,6 +98,13 @@ class Follower {
     if (first.is_none()) return true;
     if (mesh_->from(e) != mesh_->from(first)) return from(first) < from(e);
     return orient(from(e), to(e), to(first)) > 0;
+  }
+
+  /// Those of a sorted list that have not only moved are in remade_ then.
+  void leave_out_moved(std::span<const TriangleId> all, std::span<const TriangleId> moved) {
+    remade_.clear();
+    std::set_difference(all.begin(), all.end(), moved.begin(), moved.end(),
+                        std::back_inserter(remade_));
   }
 
   void gather_parts(std::span<const TriangleId> made) {
@@ -179,6 +195,7 @@ class Follower {
   std::vector<Value> values_;        // by triangle
   std::vector<std::uint32_t> part_;  // by triangle: of those made that had no turn yet, or unmade
   std::vector<Part> parts_;
+  std::vector<TriangleId> remade_;
   std::vector<TriangleId> changed_;
 
   // Scratch memory, kept to spare allocations.

@@ -74,7 +74,7 @@ void Overlay::Parts::follow() {
   covers.grow(mesh.triangle_bound(), windings.cover_count());
   for (const TriangleId t : changes.unmade)
     if (!mesh.is_triangle(t)) covers.set(t, nothing);
-  for (const TriangleId t : changes.made) cover_anew(t);
+  for (const TriangleId t : follower.remade()) cover_anew(t);
   for (const TriangleId t : follower.changed()) cover_anew(t);
   gather_edges(changes);
   for (auto& result : results)
