@@ -33,8 +33,8 @@ namespace loft::cdt {
 /// Triangles that have only moved count to those that stayed: between these, values are right as
 /// they were.
 ///
-/// Cost of follow(): O(m log m + changed) for m triangles that were made or unmade and not only
-/// moved, and `changed` others whose value changes. Values are compared by ==.
+/// Cost of follow(): O(m log m + moved + changed) for m triangles that were made or unmade, those
+/// that have only moved, and `changed` others whose value changes. Values are compared by ==.
 template <class Value, class Cross>
 class Follower {
  public:
@@ -48,7 +48,7 @@ class Follower {
   /// Forgets all and floods, as after clear() or edits that were not followed.
   void begin() {
     values_ = flood(*mesh_, outside_, cross_);
-    part_.assign(values_.size(), unmade);
+    part_.assign(values_.size(), settled);
     remade_.clear();
     changed_.clear();
   }
@@ -57,11 +57,11 @@ class Follower {
   void follow(const Changes& changes) {
     changed_.clear();
     values_.resize(mesh_->triangle_bound(), outside_);
-    part_.resize(values_.size(), unmade);
-    leave_out_moved(changes.unmade, changes.moved);
-    for (const TriangleId t : remade_)
+    part_.resize(values_.size(), settled);
+    leave_out(changes.moved, changes.unmade, unmade_);
+    leave_out(changes.moved, changes.made, remade_);
+    for (const TriangleId t : unmade_)
       if (t.index() < values_.size()) values_[t.index()] = outside_;
-    leave_out_moved(changes.made, changes.moved);
     gather_parts(remade_);
     for (const Part& part : parts_) spread(part);
   }
@@ -73,13 +73,15 @@ class Follower {
   /// By the ids of triangles; `outside` where there is none.
   [[nodiscard]] const std::vector<Value>& values() const { return values_; }
 
-  /// The triangles that were made in the last follow() and have not only moved, sorted.
+  /// The triangles that were unmade in the last follow(), and made, and have not only moved;
+  /// sorted.
+  [[nodiscard]] std::span<const TriangleId> unmade() const { return unmade_; }
   [[nodiscard]] std::span<const TriangleId> remade() const { return remade_; }
   /// The others that have another value since, in no order.
   [[nodiscard]] std::span<const TriangleId> changed() const { return changed_; }
 
  private:
-  static constexpr std::uint32_t unmade = 0xffff'ffff;
+  static constexpr std::uint32_t settled = 0xffff'ffff;
   static constexpr std::uint32_t waiting = 0xffff'fffe;
 
   /// Made triangles that are joined by edges.
@@ -100,11 +102,11 @@ class Follower {
     return orient(from(e), to(e), to(first)) > 0;
   }
 
-  /// Those of a sorted list that have not only moved are in remade_ then.
-  void leave_out_moved(std::span<const TriangleId> all, std::span<const TriangleId> moved) {
-    remade_.clear();
+  static void leave_out(const std::vector<TriangleId>& moved, const std::vector<TriangleId>& all,
+                        std::vector<TriangleId>& rest) {
+    rest.clear();
     std::set_difference(all.begin(), all.end(), moved.begin(), moved.end(),
-                        std::back_inserter(remade_));
+                        std::back_inserter(rest));
   }
 
   void gather_parts(std::span<const TriangleId> made) {
@@ -162,7 +164,7 @@ class Follower {
     } else {
       values_[start.index()] = outside_;
     }
-    part_[start.index()] = unmade;
+    part_[start.index()] = settled;
     front_.assign(1, start);
     while (!front_.empty()) {
       const TriangleId t = front_.back();
@@ -171,10 +173,10 @@ class Follower {
         const EdgeId e = Triangulation::edge(t, corner);
         const TriangleId next = neighbour(e);
         if (part_[next.index()] == part.number) {
-          part_[next.index()] = unmade;
+          part_[next.index()] = settled;
           values_[next.index()] = beyond(e);
           front_.push_back(next);
-        } else if (part_[next.index()] == unmade) {
+        } else if (part_[next.index()] == settled) {
           change(next, beyond(e));
         }
       }
@@ -193,8 +195,9 @@ class Follower {
   Value outside_;
   Cross cross_;
   std::vector<Value> values_;        // by triangle
-  std::vector<std::uint32_t> part_;  // by triangle: of those made that had no turn yet, or unmade
+  std::vector<std::uint32_t> part_;  // by triangle: of those made that had no turn yet, or settled
   std::vector<Part> parts_;
+  std::vector<TriangleId> unmade_;
   std::vector<TriangleId> remade_;
   std::vector<TriangleId> changed_;
 

@@ -75,7 +75,8 @@ void Triangulation::take_off_all_but_plain(ConstraintId id) {
   plain_.resize(constraint.segment_count);
   const auto take_off_unless_plain = [&](std::uint32_t i) {
     stays_[i] = !plain_[i].is_none();
-    if (!stays_[i]) take_off(segment_at(i));
+    if (!stays_[i]) return take_off(segment_at(i));
+    vertex_edges_[from(plain_[i]).index()] = plain_[i];  // where it is found at once
   };
   for (std::uint32_t i = 0; i < constraint.segment_count; ++i) {
     plain_[i] = plain_edge(segment_at(i));
@@ -127,7 +128,7 @@ void Triangulation::move_together(ConstraintId id, std::span<const Point> points
   while (!moving_.empty()) {
     const VertexId v = moving_.back();
     moving_.pop_back();
-    if (has_moved(v) && !has_room(v, point(v))) put_back(v);
+    if (has_moved(v) && !has_room_beside_moved(v)) put_back(v);
   }
   std::erase_if(still_, [&](std::uint32_t i) {
     const VertexId v = inserted_[i];
@@ -137,6 +138,32 @@ void Triangulation::move_together(ConstraintId id, std::span<const Point> points
     return true;
   });
   if (still_.size() < points.size()) turn_passages(id);
+}
+
+/// What has_room() says of all corners that moved, for the triangles around one of them that are
+/// not to be looked at from another.
+bool Triangulation::has_room_beside_moved(VertexId v) const {
+  const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
+  const Point place = point(v);
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  VertexId a = to(e);
+  Point at_a = point(a);
+  bool is_of_a = is_for_other(a);
+  do {
+    if (is_constrained(e) && !(passages(e).size() == 1 && ends_at(passages(e)[0].segment(), v)))
+      return false;
+    const VertexId b = apex(e);
+    const Point at_b = point(b);
+    const bool is_of_b = is_for_other(b);
+    if (b == infinite || (!is_of_a && !is_of_b && !is_clear_triangle(at_a, at_b, place)))
+      return false;
+    a = b;
+    at_a = at_b;
+    is_of_a = is_of_b;
+    e = rotated(e);
+  } while (e != first);
+  return true;
 }
 
 /// A vertex of move_together() stays; so there is to be a look at those beside it.
@@ -163,23 +190,39 @@ void Triangulation::turn_passages(ConstraintId id) {
   }
 }
 
-/// The edge at a moved vertex and those around it become suspects where they are not Delaunay, each
-/// looked at once for all that moved.
+/// The edges at a moved vertex and those around it become suspects where they are not Delaunay,
+/// each looked at once for all that moved. Seen from the vertex, as in fan_out().
 void Triangulation::suspect_around(VertexId v) {
+  using detail::Sight;
   const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
-  const auto suspect = [&](EdgeId e, VertexId a, VertexId b, VertexId c) {
-    if (!is_constrained(e) && should_flip(a, b, c, apex(twin(e)))) suspects_.push_back(e);
-  };
+  const Point place = point(v);
   const EdgeId first = edge(v);
   EdgeId e = first;
+  VertexId a = to(e);
+  Sight to_before(place, point(apex(twin(e))));
+  Sight to_a(place, point(a));
+  bool is_of_a = is_for_other(a);
   do {
-    touch_moved(triangle(e));
-    const EdgeId around = next(e);
-    const VertexId a = to(e);
     const VertexId b = apex(e);
-    if (!is_for_other(a)) suspect(e, v, a, b);
-    if (!has_moved(a) && !has_moved(b) && !is_for_other(apex(twin(around))))
-      suspect(around, a, b, v);
+    const Sight to_b(place, point(b));
+    const bool is_of_b = is_for_other(b);
+    if (!is_of_a && !is_of_b) touch_moved(triangle(e));
+    if (!is_of_a && !is_constrained(e)) {
+      const int side = detail::in_circle_filter(to_a, to_before, to_b);
+      if (side > 0 || (side == 0 && should_flip(v, a, b, apex(twin(e))))) suspects_.push_back(e);
+    }
+    const EdgeId around = next(e);
+    if (!is_constrained(around) && !has_moved(a) && !has_moved(b)) {
+      const VertexId d = apex(twin(around));
+      if (!is_for_other(d)) {
+        const int side = detail::in_circle_filter(to_b, to_a, Sight(place, point(d)));
+        if (side > 0 || (side == 0 && should_flip(a, b, v, d))) suspects_.push_back(around);
+      }
+    }
+    to_before = to_a;
+    to_a = to_b;
+    a = b;
+    is_of_a = is_of_b;
     e = rotated(e);
   } while (e != first);
 }

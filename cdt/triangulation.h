@@ -378,7 +378,18 @@ class Triangulation {
   void touch_moved(TriangleId t) {
     if (is_recording_) note(Touch(t, true, true));
   }
-  void note(Touch touch);
+  /// Each triangle once: what counts is how it was touched first, and whether it only moved since.
+  void note(Touch touch) {
+    const std::uint32_t t = touch.triangle().index();
+    if (t >= touched_at_.size()) touched_at_.resize(edges_.size() / 3);
+    std::uint32_t& at = touched_at_[t];
+    if (at >= touched_.size() || touched_[at].triangle() != touch.triangle()) {
+      at = static_cast<std::uint32_t>(touched_.size());
+      touched_.push_back(touch);
+    } else if (!touch.has_only_moved()) {
+      touched_[at].change();
+    }
+  }
   void set_from(EdgeId e, VertexId from) { edges_[e.index()].from = from; }
   [[nodiscard]] Side side(EdgeId e) const {
     const std::uint32_t bits = edges_[e.index()].bits;
@@ -588,6 +599,7 @@ class Triangulation {
   void put_back(VertexId v);
   void turn_passages(ConstraintId id);
   [[nodiscard]] bool has_room(VertexId v, Point point) const;
+  [[nodiscard]] bool has_room_beside_moved(VertexId v) const;
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
   void suspect_around(VertexId v);
   void settle_plain(ConstraintId id);
