@@ -44,7 +44,7 @@ void Triangulation::move_to(ConstraintId id, std::span<const Point> points) {
 /// Remove and insert, but for the id.
 void Triangulation::replace(ConstraintId id, std::span<const Point> points) {
   const Ends ends = this->ends(id);
-  take_out(id);
+  take_out({&id, 1});
   insert_points(points);
   describe(id, inserted_, ends);
   lay_all(id);

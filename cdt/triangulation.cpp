@@ -399,9 +399,24 @@ std::vector<ConstraintId> Triangulation::constraints(VertexId v) const {
   return found;
 }
 
+/// Whether a constraint ends at a vertex, or a segment of it.
+bool Triangulation::may_have_points_at(VertexId v) const {
+  if (v.index() < without_length_.size() && !without_length_[v.index()].is_none()) return true;
+  const EdgeId first = edge(v);
+  if (first.is_none()) return false;
+  EdgeId e = first;
+  do {
+    for (const Passage passage : passages(e))
+      if (ends_at(passage.segment(), v)) return true;
+    e = rotated(e);
+  } while (e != first);
+  return false;
+}
+
 /// Points of constraints at a vertex: what remains of its uses are insert(Point)s and split()s.
 std::size_t Triangulation::count_points_at(VertexId v) const {
   std::size_t count = 0;
+  if (!may_have_points_at(v)) return count;
   for (const ConstraintId c : constraints(v))
     for_each_point(c, [&](VertexId w) { count += w == v ? 1U : 0U; });
   return count;
