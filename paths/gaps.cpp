@@ -122,10 +122,7 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
   keep_common();
   if (gone_.empty() && come_.empty()) return;
   mesh_.begin_batch();
-  for (const Edit& edit : gone_) {
-    remove_feet(edit.constraint);
-    mesh_.remove(edit.constraint);
-  }
+  remove_gone();
   for (Edit& edit : come_) lay(edit);
   mesh_.end_batch();
   take_over_edit();
@@ -183,11 +180,22 @@ void Gaps::lay(Edit& edit) {
   wall_of_[edit.edge.index()] = edit.constraint;
 }
 
-void Gaps::remove_feet(ConstraintId c) {
-  std::vector<VertexId> feet;
-  for (const EdgeId e : mesh_.pieces(c))
-    if (is_foot(mesh_.to(e))) feet.push_back(mesh_.to(e));
-  for (const VertexId v : feet) remove_foot(v);
+/// Walls, and the feet on them.
+void Gaps::remove_gone() {
+  idle_.clear();
+  walls_gone_.clear();
+  for (const Edit& edit : gone_) {
+    walls_gone_.push_back(edit.constraint);
+    const cdt::Segment& wall = mesh_.segments(edit.constraint)[0];
+    if (mesh_.find_edge(wall.from, wall.to)) continue;  // nothing on it
+    for (const EdgeId e : mesh_.pieces(edit.constraint)) {
+      const VertexId v = mesh_.to(e);
+      if (!is_foot(v)) continue;
+      is_foot_[v.index()] = false;
+      idle_.push_back(v);
+    }
+  }
+  mesh_.remove(walls_gone_, idle_);
 }
 
 /// What was edited is in made_ then, with all that belongs to it.
@@ -205,17 +213,18 @@ void Gaps::settle() {
     find_feet();
     if (idle_.empty() && feet_.empty()) return;
     mesh_.begin_batch();
-    for (const VertexId v : idle_) remove_foot(v);
+    remove_idle_feet();
     for (const Point& p : feet_) insert_foot(p);
     mesh_.end_batch();
-    idle_.clear();
     take_over_edit();
   }
 }
 
-void Gaps::remove_foot(VertexId v) {
-  is_foot_[v.index()] = false;
-  mesh_.remove(v);
+void Gaps::remove_idle_feet() {
+  if (idle_.empty()) return;
+  for (const VertexId v : idle_) is_foot_[v.index()] = false;
+  mesh_.remove({}, idle_);
+  idle_.clear();
 }
 
 void Gaps::insert_foot(Point p) {

@@ -102,7 +102,7 @@ class Gaps {
   void check(const FreeSpace& space, cdt::EdgeId e);
   void keep_common();
   void lay(Edit& edit);
-  void remove_feet(cdt::ConstraintId c);
+  void remove_gone();
   void settle();
   void find_feet();
   void look_around(cdt::VertexId v);
@@ -114,7 +114,7 @@ class Gaps {
   void find_idle_feet();
   [[nodiscard]] bool is_idle(cdt::VertexId foot) const;
   void insert_foot(cdt::Point p);
-  void remove_foot(cdt::VertexId v);
+  void remove_idle_feet();
   void take_over_edit();
   void take_over();
   [[nodiscard]] double gap(cdt::EdgeId e) const;
@@ -132,6 +132,7 @@ class Gaps {
   // Of one update.
   std::vector<Edit> gone_;
   std::vector<Edit> come_;
+  std::vector<cdt::ConstraintId> walls_gone_;
   std::vector<cdt::Point> feet_;
   std::vector<cdt::VertexId> idle_;
   std::vector<cdt::TriangleId> made_;
