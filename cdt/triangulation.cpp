@@ -90,7 +90,7 @@ void Triangulation::end_edit() {
 
 /// By triangle: eight bits at a time where there are many, and no more than ids have.
 void Triangulation::sort_touched() {
-  constexpr std::size_t few = 256;
+  constexpr std::size_t few = 64;
   if (touched_.size() < few) {
     std::ranges::sort(touched_);
     return;

@@ -170,7 +170,8 @@ void FreeSpace::open_sides(TriangleId t) {
 void FreeSpace::turn_at(VertexId v) {
   turn_corners(
       *mesh_, v, [this](TriangleId t) { return is_free(t); },
-      [this](EdgeId e) { return beyond(e); }, corners_);
+      [this](EdgeId e) { return beyond(e); },
+      [this](EdgeId e, EdgeId last) { corners_[e.index()] = last; });
 }
 
 void FreeSpace::triangles_at(Point p, std::vector<TriangleId>& found) const {

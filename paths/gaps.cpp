@@ -79,7 +79,7 @@ void Gaps::build(const FreeSpace& space) {
   mesh_.clear();
   walls_.clear();
   is_foot_.clear();
-  beyond_.clear();
+  ways_.clear();
   wall_of_.assign(space.mesh().edge_bound(), ConstraintId::none());
   gone_.clear();
   come_.clear();
@@ -140,10 +140,12 @@ void Gaps::take_out(EdgeId e) {
 /// Whether an edge, or its twin, has a wall may have changed.
 void Gaps::check(const FreeSpace& space, EdgeId e) {
   const Triangulation& mesh = space.mesh();
+  const EdgeId twin = mesh.twin(e);
+  if (!mesh.is_constrained(e) && wall_of_[e.index()].is_none() && wall_of_[twin.index()].is_none())
+    return;
   if (mesh.from(e) == Triangulation::infinite || mesh.to(e) == Triangulation::infinite) return;
-  if (mesh.point(mesh.to(e)) < mesh.point(mesh.from(e))) e = mesh.twin(e);
+  if (mesh.point(mesh.to(e)) < mesh.point(mesh.from(e))) e = twin;
   const ConstraintId known = wall_of_[e.index()];
-  if (!mesh.is_constrained(e) && known.is_none()) return;
   if (!is_blocked(space, e)) return take_out(e);
   const Edit now = wall_at(space, e);
   if (!known.is_none() && walls_[known.index()] == now.wall) return;
@@ -243,23 +245,31 @@ void Gaps::find_feet() {
 }
 
 /// Looks from a corner over what is free there, where that is more than half a turn: else one of
-/// the walls that bound it comes nearer to any side. Through triangles that were made, or all where
-/// the walls are new.
+/// the walls that bound it comes nearer to any side.
 void Gaps::look_around(VertexId v) {
   const EdgeId first = mesh_.edge(v);
   EdgeId e = first;
   do {
     const EdgeId last = corner(e);
-    if (!last.is_none() && beyond(e).is_none()) {
-      const Sight sight{mesh_.point(v), along_wall(e, v), along_wall(Triangulation::prev(last), v)};
-      const bool is_all_new = is_made(e) || is_made(last);
-      for (EdgeId one = e;; one = mesh_.rotated(one)) {
-        if (is_all_new || is_made(one)) find_foot(sight, Triangulation::next(one), 0);
-        if (one == last) break;
-      }
-    }
+    if (!last.is_none() && beyond(e).is_none()) look_between(e, last);
     e = mesh_.rotated(e);
   } while (e != first);
+}
+
+/// Through triangles that were made, or all where the walls are new.
+void Gaps::look_between(EdgeId first, EdgeId last) {
+  const bool is_all_new = is_made(first) || is_made(last);
+  EdgeId one = first;
+  while (!is_all_new && !is_made(one)) {
+    if (one == last) return;
+    one = mesh_.rotated(one);
+  }
+  const VertexId v = mesh_.from(first);
+  const Sight sight{mesh_.point(v), along_wall(first, v), along_wall(Triangulation::prev(last), v)};
+  for (;; one = mesh_.rotated(one)) {
+    if (is_all_new || is_made(one)) find_foot(sight, Triangulation::next(one), 0);
+    if (one == last) return;
+  }
 }
 
 /// From one end of the whole wall along an edge.
@@ -308,14 +318,8 @@ bool Gaps::Sight::is_narrower_between(Direction a, Direction b) const {
 /// Feet from which no gap leads on any more.
 void Gaps::find_idle_feet() {
   idle_.clear();
-  for (const TriangleId t : made_) {
-    if (!mesh_.is_triangle(t)) continue;
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const VertexId v = mesh_.from(Triangulation::edge(t, corner));
-      if (is_foot(v) && is_idle(v)) idle_.push_back(v);
-    }
-  }
-  cdt::keep_each_once(idle_);
+  for (const VertexId v : around_)
+    if (is_foot(v) && is_idle(v)) idle_.push_back(v);
 }
 
 bool Gaps::is_idle(VertexId foot) const {
@@ -330,30 +334,17 @@ bool Gaps::is_idle(VertexId foot) const {
 
 /// Sides, widths and corners of what was made.
 void Gaps::take_over() {
-  beyond_.resize(mesh_.edge_bound());
-  widths_.resize(mesh_.edge_bound());
-  corners_.resize(mesh_.edge_bound());
+  ways_.resize(mesh_.edge_bound());
   made_in_.resize(mesh_.triangle_bound());
   is_around_.resize(mesh_.vertex_bound());
   around_.clear();
-  constexpr double unknown = -1;
   ++round_;
-  for (const TriangleId t : made_) {
-    made_in_[t.index()] = round_;
-    for (unsigned corner = 0; corner < 3; ++corner)
-      widths_[Triangulation::edge(t, corner).index()] = unknown;
-  }
+  for (const TriangleId t : made_) made_in_[t.index()] = round_;
   for (const TriangleId t : made_) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(t, corner);
-      const EdgeId twin = mesh_.twin(e);
-      const bool is_open =
-          is_free(t) && is_free(Triangulation::triangle(twin)) && !mesh_.is_constrained(e);
-      beyond_[e.index()] = is_open ? twin : EdgeId::none();
-      beyond_[twin.index()] = is_open ? e : EdgeId::none();
-      if (is_open && widths_[e.index()] == unknown)
-        widths_[e.index()] = widths_[twin.index()] = gap(e);
-      corners_[e.index()] = EdgeId::none();
+      open_side(e);
+      ways_[e.index()].corner = EdgeId::none();
       const VertexId v = mesh_.from(e);
       if (v == Triangulation::infinite || is_around_[v.index()]) continue;
       is_around_[v.index()] = true;
@@ -365,8 +356,22 @@ void Gaps::take_over() {
     if (is_foot(v)) continue;
     turn_corners(
         mesh_, v, [this](TriangleId t) { return is_free(t); },
-        [this](EdgeId e) { return beyond(e); }, corners_);
+        [this](EdgeId e) { return beyond(e); },
+        [this](EdgeId e, EdgeId last) { ways_[e.index()].corner = last; });
   }
+}
+
+/// Whether a side can be crossed, and the gap along it, from both sides of it.
+void Gaps::open_side(EdgeId e) {
+  const EdgeId twin = mesh_.twin(e);
+  if (twin < e && is_made(twin)) return;
+  const bool is_open = !mesh_.is_constrained(e) && is_free(Triangulation::triangle(e)) &&
+                       is_free(Triangulation::triangle(twin));
+  Way& there = ways_[e.index()];
+  Way& back = ways_[twin.index()];
+  there.beyond = is_open ? twin : EdgeId::none();
+  back.beyond = is_open ? e : EdgeId::none();
+  if (is_open) there.width = back.width = gap(e);
 }
 
 /// The segment that a foot is on.
