@@ -376,24 +376,19 @@ class Triangulation {
   void free_triangle(TriangleId t);
   void free_vertex(VertexId v);
   void touch(TriangleId t) {
-    if (is_recording_) note(Touch(t, true, false));
+    if (is_recording_ && !is_noted(t)) note(Touch(t, true, false));
   }
   /// Its corners are elsewhere; what else there is to it stays.
   void touch_moved(TriangleId t) {
     if (is_recording_) note(Touch(t, true, true));
   }
-  /// Each triangle once: what counts is how it was touched first, and whether it only moved since.
-  void note(Touch touch) {
-    const std::uint32_t t = touch.triangle().index();
-    if (t >= touched_at_.size()) touched_at_.resize(edges_.size() / 3);
-    std::uint32_t& at = touched_at_[t];
-    if (at >= touched_.size() || touched_[at].triangle() != touch.triangle()) {
-      at = static_cast<std::uint32_t>(touched_.size());
-      touched_.push_back(touch);
-    } else if (!touch.has_only_moved()) {
-      touched_[at].change();
-    }
+  /// Whether a triangle was touched, other than by moving.
+  [[nodiscard]] bool is_noted(TriangleId t) const {
+    if (t.index() >= touched_at_.size()) return false;
+    const std::uint32_t at = touched_at_[t.index()];
+    return at < touched_.size() && touched_[at].triangle() == t && !touched_[at].has_only_moved();
   }
+  void note(Touch touch);
   void set_from(EdgeId e, VertexId from) { edges_[e.index()].from = from; }
   [[nodiscard]] Side side(EdgeId e) const {
     const std::uint32_t bits = edges_[e.index()].bits;

@@ -72,6 +72,19 @@ TriangleId Triangulation::new_triangle() {
   return t;
 }
 
+/// Each triangle once: what counts is how it was touched first, and whether it only moved since.
+void Triangulation::note(Touch touch) {
+  const std::uint32_t t = touch.triangle().index();
+  if (t >= touched_at_.size()) touched_at_.resize(edges_.size() / 3);
+  std::uint32_t& at = touched_at_[t];
+  if (at >= touched_.size() || touched_[at].triangle() != touch.triangle()) {
+    at = static_cast<std::uint32_t>(touched_.size());
+    touched_.push_back(touch);
+  } else if (!touch.has_only_moved()) {
+    touched_[at].change();
+  }
+}
+
 /// Room for more triangles: a little at a time, so that no memory is touched in vain.
 void Triangulation::grow() {
   constexpr std::size_t more = 3 * 256;
