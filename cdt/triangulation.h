@@ -376,17 +376,11 @@ class Triangulation {
   void free_triangle(TriangleId t);
   void free_vertex(VertexId v);
   void touch(TriangleId t) {
-    if (is_recording_ && !is_noted(t)) note(Touch(t, true, false));
+    if (is_recording_) note(Touch(t, true, false));
   }
   /// Its corners are elsewhere; what else there is to it stays.
   void touch_moved(TriangleId t) {
     if (is_recording_) note(Touch(t, true, true));
-  }
-  /// Whether a triangle was touched, other than by moving.
-  [[nodiscard]] bool is_noted(TriangleId t) const {
-    if (t.index() >= touched_at_.size()) return false;
-    const std::uint32_t at = touched_at_[t.index()];
-    return at < touched_.size() && touched_[at].triangle() == t && !touched_[at].has_only_moved();
   }
   void note(Touch touch);
   void set_from(EdgeId e, VertexId from) { edges_[e.index()].from = from; }
@@ -446,6 +440,10 @@ class Triangulation {
   [[nodiscard]] EdgeId hint_for(Point point) const;
   [[nodiscard]] VertexId split_at(Location place, Point point);
   void doubt_others_on(EdgeId e, Point point);
+  [[nodiscard]] bool has_constrained_side(TriangleId t) const {
+    const OrientedEdge* sides = &edges_[3 * t.index()];
+    return ((sides[0].bits | sides[1].bits | sides[2].bits) & OrientedEdge::constrained) != 0;
+  }
   [[nodiscard]] EdgeId led_through(EdgeId inside, Point point) const;
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
   void start(VertexId a, VertexId b);

@@ -163,7 +163,7 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   if (epsilon_ > 0) {
     if (const VertexId v = merge(place, point); !v.is_none()) return v;
   } else {
-    if (place.kind == Location::Kind::triangle)
+    if (place.kind == Location::Kind::triangle && has_constrained_side(triangle(place.edge)))
       if (const EdgeId e = led_through(place.edge, point); !e.is_none())
         place = {Location::Kind::edge, e};
     if (place.kind == Location::Kind::edge && is_constrained(place.edge))
