@@ -116,9 +116,14 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
   gone_.clear();
   come_.clear();
   for (const TriangleId t : unmade)
-    for (unsigned corner = 0; corner < 3; ++corner) take_out(Triangulation::edge(t, corner));
+    for (unsigned corner = 0; corner < 3; ++corner)
+      if (const EdgeId e = Triangulation::edge(t, corner); has_wall(e)) take_out(e);
   for (const TriangleId t : touched)
-    for (unsigned corner = 0; corner < 3; ++corner) check(space, Triangulation::edge(t, corner));
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(t, corner);
+      if (space.mesh().is_constrained(e) || has_wall(e) || has_wall(space.mesh().twin(e)))
+        check(space, e);
+    }
   keep_common();
   if (gone_.empty() && come_.empty()) return;
   mesh_.begin_batch();
@@ -131,7 +136,7 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
 
 /// The wall of an edge is gone, if it had one.
 void Gaps::take_out(EdgeId e) {
-  if (e.index() >= wall_of_.size() || wall_of_[e.index()].is_none()) return;
+  if (!has_wall(e)) return;
   const ConstraintId c = std::exchange(wall_of_[e.index()], ConstraintId::none());
   const cdt::Segment& wall = mesh_.segments(c)[0];
   gone_.push_back({mesh_.point(wall.from), mesh_.point(wall.to), walls_[c.index()], e, c});
@@ -140,11 +145,8 @@ void Gaps::take_out(EdgeId e) {
 /// Whether an edge, or its twin, has a wall may have changed.
 void Gaps::check(const FreeSpace& space, EdgeId e) {
   const Triangulation& mesh = space.mesh();
-  const EdgeId twin = mesh.twin(e);
-  if (!mesh.is_constrained(e) && wall_of_[e.index()].is_none() && wall_of_[twin.index()].is_none())
-    return;
   if (mesh.from(e) == Triangulation::infinite || mesh.to(e) == Triangulation::infinite) return;
-  if (mesh.point(mesh.to(e)) < mesh.point(mesh.from(e))) e = twin;
+  if (mesh.point(mesh.to(e)) < mesh.point(mesh.from(e))) e = mesh.twin(e);
   const ConstraintId known = wall_of_[e.index()];
   if (!is_blocked(space, e)) return take_out(e);
   const Edit now = wall_at(space, e);

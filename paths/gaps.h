@@ -104,6 +104,7 @@ class Gaps {
   [[nodiscard]] bool is_passable_exactly(cdt::EdgeId e, double radius) const;
   [[nodiscard]] Edit wall_at(const FreeSpace& space, cdt::EdgeId e) const;
   [[nodiscard]] static bool is_blocked(const FreeSpace& space, cdt::EdgeId e);
+  [[nodiscard]] bool has_wall(cdt::EdgeId e) const { return !wall_of_[e.index()].is_none(); }
   void take_out(cdt::EdgeId e);
   void check(const FreeSpace& space, cdt::EdgeId e);
   void keep_common();
