@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "cdt/rounding.h"
@@ -195,6 +196,10 @@ void Triangulation::turn_passages(ConstraintId id) {
 void Triangulation::suspect_around(VertexId v) {
   using detail::Sight;
   const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
+  const auto suspect = [&](EdgeId e, int side) {
+    if (side == 0) side = should_flip(from(e), to(e), apex(e), apex(twin(e))) ? 1 : -1;
+    if (side > 0) suspects_.push_back(e);
+  };
   const Point place = point(v);
   const EdgeId first = edge(v);
   EdgeId e = first;
@@ -207,20 +212,14 @@ void Triangulation::suspect_around(VertexId v) {
     const Sight to_b(place, point(b));
     const bool is_of_b = is_for_other(b);
     if (!is_of_a && !is_of_b) touch_moved(triangle(e));
-    if (!is_of_a && !is_constrained(e)) {
-      const int side = detail::in_circle_filter(to_a, to_before, to_b);
-      if (side > 0 || (side == 0 && should_flip(v, a, b, apex(twin(e))))) suspects_.push_back(e);
-    }
+    if (!is_of_a && !is_constrained(e)) suspect(e, detail::in_circle_filter(to_a, to_before, to_b));
     const EdgeId around = next(e);
     if (!is_constrained(around) && !has_moved(a) && !has_moved(b)) {
       const VertexId d = apex(twin(around));
-      if (!is_for_other(d)) {
-        const int side = detail::in_circle_filter(to_b, to_a, Sight(place, point(d)));
-        if (side > 0 || (side == 0 && should_flip(a, b, v, d))) suspects_.push_back(around);
-      }
+      if (!is_for_other(d))
+        suspect(around, detail::in_circle_filter(to_b, to_a, Sight(place, point(d))));
     }
-    to_before = to_a;
-    to_a = to_b;
+    to_before = std::exchange(to_a, to_b);
     a = b;
     is_of_a = is_of_b;
     e = rotated(e);
