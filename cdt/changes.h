@@ -9,10 +9,14 @@ namespace loft::cdt {
 
 /// What an edit did to the triangles, for whoever keeps something beside each of them: forget what
 /// belongs to those in `unmade`, then compute it for those in `made`. Ids are reused: a triangle
-/// with other corners than before is in both lists. Both are sorted; infinite triangles count.
+/// with other corners than before is in both lists. All are sorted; infinite triangles count.
 struct Changes {
   std::vector<TriangleId> unmade;  ///< were there before the edit, are not there as they were
   std::vector<TriangleId> made;    ///< are there now, were not or had other corners or edges before
+  /// Of those in both lists the ones that have the same corners, and along each side the same
+  /// segments, as before: what is new is where the corners are. So what depends on who is whose
+  /// neighbour alone is still there.
+  std::vector<TriangleId> moved;
 };
 
 }  // namespace loft::cdt

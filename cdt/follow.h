@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -29,8 +30,11 @@ namespace loft::cdt {
 /// part there is right already. From there values spread through the part, and where they meet a
 /// triangle that stayed and had another value, on through those that stayed until nothing changes.
 ///
-/// Cost of follow(): O(m log m + changed) for m made and unmade triangles and `changed` others
-/// whose value changes. Values are compared by ==.
+/// Triangles that have only moved count to those that stayed: between these, values are right as
+/// they were.
+///
+/// Cost of follow(): O(m log m + moved + changed) for m triangles that were made or unmade, those
+/// that have only moved, and `changed` others whose value changes. Values are compared by ==.
 template <class Value, class Cross>
 class Follower {
  public:
@@ -44,7 +48,8 @@ class Follower {
   /// Forgets all and floods, as after clear() or edits that were not followed.
   void begin() {
     values_ = flood(*mesh_, outside_, cross_);
-    part_.assign(values_.size(), unmade);
+    part_.assign(values_.size(), settled);
+    remade_.clear();
     changed_.clear();
   }
 
@@ -52,10 +57,12 @@ class Follower {
   void follow(const Changes& changes) {
     changed_.clear();
     values_.resize(mesh_->triangle_bound(), outside_);
-    part_.resize(values_.size(), unmade);
-    for (const TriangleId t : changes.unmade)
+    part_.resize(values_.size(), settled);
+    leave_out(changes.moved, changes.unmade, unmade_);
+    leave_out(changes.moved, changes.made, remade_);
+    for (const TriangleId t : unmade_)
       if (t.index() < values_.size()) values_[t.index()] = outside_;
-    gather_parts(changes.made);
+    gather_parts(remade_);
     for (const Part& part : parts_) spread(part);
   }
 
@@ -66,11 +73,15 @@ class Follower {
   /// By the ids of triangles; `outside` where there is none.
   [[nodiscard]] const std::vector<Value>& values() const { return values_; }
 
-  /// The triangles that stayed in the last follow() and have another value since, in no order.
+  /// The triangles that were unmade in the last follow(), and made, and have not only moved;
+  /// sorted.
+  [[nodiscard]] std::span<const TriangleId> unmade() const { return unmade_; }
+  [[nodiscard]] std::span<const TriangleId> remade() const { return remade_; }
+  /// The others that have another value since, in no order.
   [[nodiscard]] std::span<const TriangleId> changed() const { return changed_; }
 
  private:
-  static constexpr std::uint32_t unmade = 0xffff'ffff;
+  static constexpr std::uint32_t settled = 0xffff'ffff;
   static constexpr std::uint32_t waiting = 0xffff'fffe;
 
   /// Made triangles that are joined by edges.
@@ -89,6 +100,13 @@ class Follower {
     if (first.is_none()) return true;
     if (mesh_->from(e) != mesh_->from(first)) return from(first) < from(e);
     return orient(from(e), to(e), to(first)) > 0;
+  }
+
+  static void leave_out(const std::vector<TriangleId>& moved, const std::vector<TriangleId>& all,
+                        std::vector<TriangleId>& rest) {
+    rest.clear();
+    std::set_difference(all.begin(), all.end(), moved.begin(), moved.end(),
+                        std::back_inserter(rest));
   }
 
   void gather_parts(std::span<const TriangleId> made) {
@@ -146,7 +164,7 @@ class Follower {
     } else {
       values_[start.index()] = outside_;
     }
-    part_[start.index()] = unmade;
+    part_[start.index()] = settled;
     front_.assign(1, start);
     while (!front_.empty()) {
       const TriangleId t = front_.back();
@@ -155,10 +173,10 @@ class Follower {
         const EdgeId e = Triangulation::edge(t, corner);
         const TriangleId next = neighbour(e);
         if (part_[next.index()] == part.number) {
-          part_[next.index()] = unmade;
+          part_[next.index()] = settled;
           values_[next.index()] = beyond(e);
           front_.push_back(next);
-        } else if (part_[next.index()] == unmade) {
+        } else if (part_[next.index()] == settled) {
           change(next, beyond(e));
         }
       }
@@ -177,8 +195,10 @@ class Follower {
   Value outside_;
   Cross cross_;
   std::vector<Value> values_;        // by triangle
-  std::vector<std::uint32_t> part_;  // by triangle: of those made that had no turn yet, or unmade
+  std::vector<std::uint32_t> part_;  // by triangle: of those made that had no turn yet, or settled
   std::vector<Part> parts_;
+  std::vector<TriangleId> unmade_;
+  std::vector<TriangleId> remade_;
   std::vector<TriangleId> changed_;
 
   // Scratch memory, kept to spare allocations.

@@ -24,6 +24,7 @@ int tilt_of(const Box& box, int most) {
 void Locator::clear() {
   box_ = {};
   levels_ = 0;
+  finest_bits_ = 0;
   laid_out_for_ = 0;
   cells_.clear();
 }
@@ -57,11 +58,13 @@ void Locator::set_out(unsigned levels, Box box) {
     cells += std::size_t{1} << (2 * (level + 1));
   }
   cells_.assign(cells, VertexId::none());
+  finest_bits_ = 0;
   if (levels_ == 0) return;
   tilt_ = tilt_of(box_, static_cast<int>(levels_));
-  const unsigned bits = column_bits(levels_ - 1);
-  columns_per_unit_ = std::exp2(bits) / std::max(box_.high.x - box_.low.x, 1e-300);
-  rows_per_unit_ = std::exp2(2 * levels_ - bits) / std::max(box_.high.y - box_.low.y, 1e-300);
+  finest_bits_ = column_bits(levels_ - 1);
+  columns_per_unit_ = std::exp2(finest_bits_) / std::max(box_.high.x - box_.low.x, 1e-300);
+  rows_per_unit_ =
+      std::exp2(2 * levels_ - finest_bits_) / std::max(box_.high.y - box_.low.y, 1e-300);
 }
 
 unsigned Locator::column_bits(unsigned level) const {
@@ -69,24 +72,29 @@ unsigned Locator::column_bits(unsigned level) const {
   return static_cast<unsigned>(std::clamp(half - tilt_, 0, 2 * half));
 }
 
-/// Row by row; places outside the box count to its border.
-std::size_t Locator::cell(Point p, unsigned level) const {
-  const unsigned finest = column_bits(levels_ - 1);
+/// Places outside the box count to its border.
+Locator::Place Locator::finest(Point p) const {
   const auto index = [](double place, unsigned bits) {
     const std::size_t count = std::size_t{1} << bits;
     return place < static_cast<double>(count) ? static_cast<std::size_t>(std::max(place, 0.0))
                                               : count - 1;
   };
-  const std::size_t x = index((p.x - box_.low.x) * columns_per_unit_, finest);
-  const std::size_t y = index((p.y - box_.low.y) * rows_per_unit_, 2 * levels_ - finest);
+  return {index((p.x - box_.low.x) * columns_per_unit_, finest_bits_),
+          index((p.y - box_.low.y) * rows_per_unit_, 2 * levels_ - finest_bits_)};
+}
+
+/// Row by row.
+std::size_t Locator::cell(Place place, unsigned level) const {
   const unsigned columns = column_bits(level);
-  const unsigned fewer_rows = 2 * (levels_ - 1 - level) - (finest - columns);
-  return first_[level] + ((y >> fewer_rows << columns) | (x >> (finest - columns)));
+  const unsigned fewer_rows = 2 * (levels_ - 1 - level) - (finest_bits_ - columns);
+  return first_[level] +
+         ((place.row >> fewer_rows << columns) | (place.column >> (finest_bits_ - columns)));
 }
 
 void Locator::add(VertexId v, Point p) {
+  const Place place = finest(p);
   for (unsigned level = levels_; level-- > 0;) {
-    VertexId& known = cells_[cell(p, level)];
+    VertexId& known = cells_[cell(place, level)];
     const bool was_known = !known.is_none();
     known = v;
     if (was_known) break;
@@ -94,21 +102,23 @@ void Locator::add(VertexId v, Point p) {
 }
 
 void Locator::replace(VertexId v, Point p, VertexId instead) {
+  const Place place = finest(p);
   for (unsigned level = levels_; level-- > 0;) {
-    VertexId& known = cells_[cell(p, level)];
+    VertexId& known = cells_[cell(place, level)];
     if (known == v) known = instead;
   }
 }
 
 void Locator::move(VertexId v, Point p, Point q, VertexId instead) {
-  if (levels_ == 0 || cell(p, levels_ - 1) == cell(q, levels_ - 1)) return;
+  if (levels_ == 0 || finest(p) == finest(q)) return;
   replace(v, p, instead);
   add(v, q);
 }
 
 VertexId Locator::near(Point p) const {
+  const Place place = finest(p);
   for (unsigned level = levels_; level-- > 0;)
-    if (const VertexId v = cells_[cell(p, level)]; !v.is_none()) return v;
+    if (const VertexId v = cells_[cell(place, level)]; !v.is_none()) return v;
   return VertexId::none();
 }
 

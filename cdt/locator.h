@@ -42,13 +42,23 @@ class Locator {
   [[nodiscard]] bool contains(Point p) const {
     return p.x >= box_.low.x && p.x <= box_.high.x && p.y >= box_.low.y && p.y <= box_.high.y;
   }
-  [[nodiscard]] std::size_t cell(Point p, unsigned level) const;
+  /// Where it is in the finest grid.
+  struct Place {
+    std::size_t column;
+    std::size_t row;
+
+    friend bool operator==(const Place&, const Place&) = default;
+  };
+  [[nodiscard]] Place finest(Point p) const;
+  [[nodiscard]] std::size_t cell(Point p, unsigned level) const { return cell(finest(p), level); }
+  [[nodiscard]] std::size_t cell(Place place, unsigned level) const;
   /// The binary logarithm of how many columns a level has; it has 4^(level + 1) cells.
   [[nodiscard]] unsigned column_bits(unsigned level) const;
 
   Box box_;
   double columns_per_unit_ = 0;
   double rows_per_unit_ = 0;
+  unsigned finest_bits_ = 0;                      // column_bits() of the finest grid
   unsigned levels_ = 0;                           // the finest grid has 4^levels cells
   int tilt_ = 0;                                  // half the binary logarithm of height by width
   std::size_t laid_out_for_ = 0;                  // vertices

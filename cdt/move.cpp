@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include <algorithm>
+#include <utility>
 
 #include "cdt/predicates.h"
 #include "cdt/rounding.h"
@@ -44,7 +45,7 @@ void Triangulation::move_to(ConstraintId id, std::span<const Point> points) {
 /// Remove and insert, but for the id.
 void Triangulation::replace(ConstraintId id, std::span<const Point> points) {
   const Ends ends = this->ends(id);
-  take_out(id);
+  take_out({&id, 1});
   insert_points(points);
   describe(id, inserted_, ends);
   lay_all(id);
@@ -54,25 +55,52 @@ void Triangulation::replace(ConstraintId id, std::span<const Point> points) {
 /// vertices move together with all that is around them, as long as no triangle turns over. What
 /// cannot move goes and comes back.
 void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points) {
-  const Constraint constraint = constraints_[id.index()];
-  const std::uint32_t first = constraint.first_segment;
-  const std::uint32_t count = constraint.segment_count;
-  const auto n = static_cast<std::uint32_t>(points.size());
-  stays_.assign(count, false);
-  plain_.assign(count, EdgeId::none());
-  for (std::uint32_t i = 0; i < count; ++i) {
-    plain_[i] = plain_edge(SegmentId(first + i));
-    stays_[i] = !plain_[i].is_none();
-    if (!stays_[i]) take_off(SegmentId(first + i));
-  }
-  settle_loose();
-
+  take_off_all_but_plain(id);
   inserted_.clear();
   for_each_point(id, [&](VertexId v) { inserted_.push_back(v); });
-  // More than once, as one vertex may have to make way for the next.
+  move_vertices(id, points);
+  if (still_.size() < points.size()) settle_plain(id);
+  replace_still(id, points);
+  const Constraint constraint = constraints_[id.index()];
+  if (!crowded_.empty()) lay_crowded();
+  for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
+    if (!stays_[i]) lay(SegmentId(constraint.first_segment + i));
+  if (!loose_.empty()) settle_loose();
+}
+
+/// Segments that stay, and their edges, are in stays_ and plain_ then.
+void Triangulation::take_off_all_but_plain(ConstraintId id) {
+  const Constraint constraint = constraints_[id.index()];
+  const auto segment_at = [&](std::uint32_t i) { return SegmentId(constraint.first_segment + i); };
+  stays_.assign(constraint.segment_count, true);
+  plain_.resize(constraint.segment_count);
+  const auto take_off_unless_plain = [&](std::uint32_t i) {
+    stays_[i] = !plain_[i].is_none();
+    if (!stays_[i]) return take_off(segment_at(i));
+    vertex_edges_[from(plain_[i]).index()] = plain_[i];  // where it is found at once
+  };
+  for (std::uint32_t i = 0; i < constraint.segment_count; ++i) {
+    plain_[i] = plain_edge(segment_at(i));
+    take_off_unless_plain(i);
+  }
+  while (!loose_.empty()) {
+    settle_loose();
+    for (std::uint32_t i = 0; i < constraint.segment_count; ++i) {
+      if (!stays_[i]) continue;
+      plain_[i] = plain_edge_now(segment_at(i), plain_[i]);
+      take_off_unless_plain(i);
+    }
+  }
+}
+
+/// Moves the vertices in inserted_; those that cannot move yet are in still_ then.
+void Triangulation::move_vertices(ConstraintId id, std::span<const Point> points) {
   still_.clear();
-  for (std::uint32_t i = 0; i < n; ++i)
+  for (std::uint32_t i = 0; i < points.size(); ++i)
     if (point(inserted_[i]) != points[i]) still_.push_back(i);
+  if (still_.empty()) return;
+  move_together(id, points);
+  // More than once, as one vertex may have to make way for the next.
   constexpr int rounds = 3;
   for (int round = 0; round < rounds && !still_.empty(); ++round) {
     const std::size_t before = still_.size();
@@ -80,19 +108,141 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     if (still_.size() == before) break;
   }
   for (const VertexId v : inserted_)
-    if (has_moved(v)) push_around(v);
+    if (has_moved(v)) suspect_around(v);
   for (const VertexId v : inserted_) uses_[v.index()] &= ~moved;
   restore_delaunay();
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Segment& segment = segments_[first + i];
-    if (!stays_[i] || still_.size() == n) continue;
-    const SegmentId s(first + i);
-    const EdgeId known = plain_[i];
-    const bool is_there = from(known) == segment.from && to(known) == segment.to;
-    const EdgeId e = is_there ? known : edge_between(segment.from, segment.to);
+}
+
+/// All at once, but for those that have no room where they are to go, and those that then have none
+/// beside these.
+void Triangulation::move_together(ConstraintId id, std::span<const Point> points) {
+  places_before_.clear();
+  for (const VertexId v : inserted_) places_before_.push_back(point(v));
+  moving_.clear();
+  for (const std::uint32_t i : still_) {
+    const VertexId v = inserted_[i];
+    if (uses_[v.index()] != 1) continue;
+    points_[v.index()] = points[i];
+    uses_[v.index()] = moved | i;
+    moving_.push_back(v);
+  }
+  while (!moving_.empty()) {
+    const VertexId v = moving_.back();
+    moving_.pop_back();
+    if (has_moved(v) && !has_room_beside_moved(v)) put_back(v);
+  }
+  std::erase_if(still_, [&](std::uint32_t i) {
+    const VertexId v = inserted_[i];
+    if (!has_moved(v)) return false;
+    uses_[v.index()] = moved | 1;
+    locator_.move(v, places_before_[i], point(v), to(edge(v)));
+    return true;
+  });
+  if (still_.size() < points.size()) turn_passages(id);
+}
+
+/// What has_room() says of all corners that moved, for the triangles around one of them that are
+/// not to be looked at from another.
+bool Triangulation::has_room_beside_moved(VertexId v) const {
+  const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
+  const Point place = point(v);
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  VertexId a = to(e);
+  Point at_a = point(a);
+  bool is_of_a = is_for_other(a);
+  do {
+    if (is_constrained(e) && !(passages(e).size() == 1 && ends_at(passages(e)[0].segment(), v)))
+      return false;
+    const VertexId b = apex(e);
+    const Point at_b = point(b);
+    const bool is_of_b = is_for_other(b);
+    if (b == infinite || (!is_of_a && !is_of_b && !is_clear_triangle(at_a, at_b, place)))
+      return false;
+    a = b;
+    at_a = at_b;
+    is_of_a = is_of_b;
+    e = rotated(e);
+  } while (e != first);
+  return true;
+}
+
+/// A vertex of move_together() stays; so there is to be a look at those beside it.
+void Triangulation::put_back(VertexId v) {
+  points_[v.index()] = places_before_[uses_[v.index()] & ~moved];
+  uses_[v.index()] = 1;
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  do {
+    if (has_moved(to(e))) moving_.push_back(to(e));
+    e = rotated(e);
+  } while (e != first);
+}
+
+/// What is upward now and was not before, or the other way round.
+void Triangulation::turn_passages(ConstraintId id) {
+  const Constraint constraint = constraints_[id.index()];
+  for (std::uint32_t i = 0; i < constraint.segment_count; ++i) {
+    if (!stays_[i]) continue;
+    const std::uint32_t k = i + 1 < inserted_.size() ? i + 1 : 0;
+    const bool was_upward = places_before_[i] < places_before_[k];
+    if (was_upward == (point(inserted_[i]) < point(inserted_[k]))) continue;
+    join(plain_[i], twin(plain_[i]), sets_.reversed(side(plain_[i]).set));
+  }
+}
+
+/// The edges at a moved vertex and those around it become suspects where they are not Delaunay,
+/// each looked at once for all that moved. Seen from the vertex, as in fan_out().
+void Triangulation::suspect_around(VertexId v) {
+  using detail::Sight;
+  const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
+  const auto suspect = [&](EdgeId e, int side) {
+    if (side == 0) side = should_flip(from(e), to(e), apex(e), apex(twin(e))) ? 1 : -1;
+    if (side > 0) suspects_.push_back(e);
+  };
+  const Point place = point(v);
+  const EdgeId first = edge(v);
+  EdgeId e = first;
+  VertexId a = to(e);
+  Sight to_before(place, point(apex(twin(e))));
+  Sight to_a(place, point(a));
+  bool is_of_a = is_for_other(a);
+  do {
+    const VertexId b = apex(e);
+    const Sight to_b(place, point(b));
+    const bool is_of_b = is_for_other(b);
+    if (!is_of_a && !is_of_b) touch_moved(triangle(e));
+    if (!is_of_a && !is_constrained(e)) suspect(e, detail::in_circle_filter(to_a, to_before, to_b));
+    const EdgeId around = next(e);
+    if (!is_constrained(around) && !has_moved(a) && !has_moved(b)) {
+      const VertexId d = apex(twin(around));
+      if (!is_for_other(d))
+        suspect(around, detail::in_circle_filter(to_b, to_a, Sight(place, point(d))));
+    }
+    to_before = std::exchange(to_a, to_b);
+    a = b;
+    is_of_a = is_of_b;
+    e = rotated(e);
+  } while (e != first);
+}
+
+/// Leads segments that kept their edges through what is beside them now.
+void Triangulation::settle_plain(ConstraintId id) {
+  const Constraint constraint = constraints_[id.index()];
+  for (std::uint32_t i = 0; i < constraint.segment_count; ++i) {
+    if (!stays_[i]) continue;
+    const SegmentId s(constraint.first_segment + i);
+    const EdgeId e = plain_edge_now(s, plain_[i]);
     if (!e.is_none() && !settle_piece(e, s)) crowded_.push_back(s);
   }
+}
 
+/// Vertices that could not move make way for others, where they are to be.
+void Triangulation::replace_still(ConstraintId id, std::span<const Point> points) {
+  const Constraint constraint = constraints_[id.index()];
+  const std::uint32_t first = constraint.first_segment;
+  const std::uint32_t count = constraint.segment_count;
+  const auto n = static_cast<std::uint32_t>(points.size());
   for (const std::uint32_t i : still_) {
     const std::uint32_t before = i > 0 ? i - 1 : constraint.is_closed ? count - 1 : count;
     for (const std::uint32_t k : {before, i}) {
@@ -118,25 +268,6 @@ void Triangulation::move_in_place(ConstraintId id, std::span<const Point> points
     segments_[first + i].from = inserted_[i];
     segments_[first + i].to = inserted_[i + 1 < n ? i + 1 : 0];
   }
-  if (!crowded_.empty()) lay_crowded();
-  for (std::uint32_t i = 0; i < count; ++i)
-    if (!stays_[i]) lay(SegmentId(first + i));
-  if (!loose_.empty()) settle_loose();
-}
-
-/// The edges at a moved vertex and those around it become suspects, each once for all that moved.
-void Triangulation::push_around(VertexId v) {
-  const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
-  const EdgeId first = edge(v);
-  EdgeId e = first;
-  do {
-    const EdgeId around = next(e);
-    if (!is_constrained(e) && !is_for_other(to(e))) suspects_.push_back(e);
-    if (!is_constrained(around) && !has_moved(from(around)) && !has_moved(to(around)) &&
-        !is_for_other(apex(twin(around))))
-      suspects_.push_back(around);
-    e = rotated(e);
-  } while (e != first);
 }
 
 /// The edge that a segment is, if it is one that nothing else runs along; none otherwise.
@@ -148,23 +279,35 @@ EdgeId Triangulation::plain_edge(SegmentId s) const {
   return is_plain ? e : EdgeId::none();
 }
 
-/// Puts a vertex of one point elsewhere if every triangle around it stays counter-clockwise, no
-/// segment beside it has to lead through it and no vertex is hardly apart.
-bool Triangulation::move_vertex(VertexId v, Point p) {
-  if (uses_[v.index()] != 1) return false;
+/// The same after other edges may have been flipped. `known`: what it was.
+EdgeId Triangulation::plain_edge_now(SegmentId s, EdgeId known) const {
+  const Segment& segment = this->segment(s);
+  const bool is_there = from(known) == segment.from && to(known) == segment.to;
+  return is_there ? known : edge_between(segment.from, segment.to);
+}
+
+/// Whether at p every triangle around v would be counter-clockwise, no segment beside it would have
+/// to lead through it and no vertex be hardly apart.
+bool Triangulation::has_room(VertexId v, Point p) const {
   const EdgeId first = edge(v);
   EdgeId e = first;
   do {
     if (is_constrained(e) && (passages(e).size() != 1 || !ends_at(passages(e)[0].segment(), v)))
       return false;
-    const EdgeId opposite = next(e);
-    const VertexId a = from(opposite);
-    const VertexId b = to(opposite);
+    const VertexId a = to(e);
+    const VertexId b = apex(e);
     if (a == infinite || b == infinite || !is_clearly_left(point(a), point(b), p)) return false;
     e = rotated(e);
   } while (e != first);
+  return true;
+}
+
+/// Puts a vertex of one point elsewhere if it has room there.
+bool Triangulation::move_vertex(VertexId v, Point p) {
+  if (uses_[v.index()] != 1 || !has_room(v, p)) return false;
+  const EdgeId first = edge(v);
+  EdgeId e = first;
   do {
-    touch(triangle(e));
     if (is_constrained(e) && (point(v) < point(to(e))) != (p < point(to(e))))
       join(e, twin(e), sets_.reversed(side(e).set));
     e = rotated(e);

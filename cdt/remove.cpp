@@ -13,40 +13,49 @@ namespace loft::cdt {
 
 /// KBT, remove_constraint: the ids come off the edges; then each vertex on the way goes if nothing
 /// needs it any more.
-void Triangulation::remove(ConstraintId id) {
-  check_known(id);
+void Triangulation::remove(ConstraintId id) { remove({&id, 1}, {}); }
+
+void Triangulation::remove(VertexId v) { remove({}, {&v, 1}); }
+
+void Triangulation::remove(std::span<const ConstraintId> ids, std::span<const VertexId> vertices) {
+  for (const ConstraintId id : ids) check_known(id);
+  for (const VertexId v : vertices) check_own_point(v);
   begin_edit();
-  note_edited(id);
-  take_out(id);
-  constraints_[id.index()].first_vertex = VertexId::none();
-  free_constraints_.push_back(id);
+  for (const ConstraintId id : ids) note_edited(id);
+  if (!snaps_.empty())
+    for (const VertexId v : vertices) edited_.emplace_back(point(v), point(v));
+  take_out(ids, vertices);
+  for (const ConstraintId id : ids) {
+    constraints_[id.index()].first_vertex = VertexId::none();
+    free_constraints_.push_back(id);
+  }
   straighten(snaps_.size());
   end_edit();
 }
 
-/// All but the id.
-void Triangulation::take_out(ConstraintId id) {
-  const Constraint constraint = constraints_[id.index()];
-  for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
-    take_off(SegmentId(constraint.first_segment + i));
-  release_points(id);
-  settle_loose();
-  free_segments(id);
-  forget_dead_snaps();
-}
-
-void Triangulation::remove(VertexId v) {
+void Triangulation::check_own_point(VertexId v) const {
   if (!is_vertex(v)) throw std::invalid_argument("there is no vertex " + std::to_string(v.index()));
   if (count_points_at(v) == uses_[v.index()])
     throw std::invalid_argument("vertex " + std::to_string(v.index()) +
                                 " belongs to constraints only: remove these");
-  begin_edit();
-  if (!snaps_.empty()) edited_.emplace_back(point(v), point(v));
-  --uses_[v.index()];
-  loose_.push_back(v);
+}
+
+/// All but the ids.
+void Triangulation::take_out(std::span<const ConstraintId> ids,
+                             std::span<const VertexId> vertices) {
+  for (const ConstraintId id : ids) {
+    const Constraint constraint = constraints_[id.index()];
+    for (std::uint32_t i = 0; i < constraint.segment_count; ++i)
+      take_off(SegmentId(constraint.first_segment + i));
+  }
+  for (const ConstraintId id : ids) release_points(id);
+  for (const VertexId v : vertices) {
+    --uses_[v.index()];
+    loose_.push_back(v);
+  }
   settle_loose();
-  straighten(snaps_.size());
-  end_edit();
+  for (const ConstraintId id : ids) free_segments(id);
+  if (!ids.empty()) forget_dead_snaps();
 }
 
 /// Takes the passages of a segment off its edges. Mostly that is one edge.

@@ -104,6 +104,20 @@ class Strip {
              2 * crowded_rounding * reach * (std::abs(b.x - a.x) + std::abs(b.y - a.y));
 }
 
+/// Whether a triangle is counter-clockwise and each of its corners is_clearly_left() of the other
+/// two: none of its sides is longer, in steps along the axes, than those at p together.
+[[nodiscard]] inline bool is_clear_triangle(Point a, Point b, Point p) {
+  const auto reach_of = [](Point q) { return std::max(std::abs(q.x), std::abs(q.y)); };
+  const Point to_a{a.x - p.x, a.y - p.y};
+  const Point to_b{b.x - p.x, b.y - p.y};
+  const double left = to_a.x * to_b.y;
+  const double right = to_a.y * to_b.x;
+  const double reach = std::max({reach_of(a), reach_of(b), reach_of(p)});
+  const double length = std::abs(to_a.x) + std::abs(to_a.y) + std::abs(to_b.x) + std::abs(to_b.y);
+  return left - right > 2 * detail::orient_bound * (std::abs(left) + std::abs(right)) +
+                            2.5 * crowded_rounding * reach * length;
+}
+
 /// Whether p is beside the segment ab, between its ends, and so near that rounding a and b may have
 /// put it on the wrong side.
 [[nodiscard]] inline bool is_hardly_beside(Point a, Point b, Point p, double slack = 1) {

@@ -90,40 +90,32 @@ void Triangulation::end_edit() {
 
 /// By triangle: eight bits at a time where there are many, and no more than ids have.
 void Triangulation::sort_touched() {
-  constexpr std::size_t few = 256;
+  constexpr std::size_t few = 64;
   if (touched_.size() < few) {
-    std::ranges::sort(touched_, {}, &Touch::triangle);
+    std::ranges::sort(touched_);
     return;
   }
   touched_before_.resize(touched_.size());
   for (unsigned shift = 0; triangle_bound_ >> shift != 0; shift += 8) {
     std::array<std::uint32_t, 256> place{};
-    const auto digit = [&](const Touch& touch) { return touch.triangle.index() >> shift & 255U; };
-    for (const Touch& touch : touched_) ++place[digit(touch)];
+    const auto digit = [&](Touch touch) { return touch.triangle().index() >> shift & 255U; };
+    for (const Touch touch : touched_) ++place[digit(touch)];
     std::uint32_t sum = 0;
     for (std::uint32_t& count : place) sum += std::exchange(count, sum);
-    for (const Touch& touch : touched_) touched_before_[place[digit(touch)]++] = touch;
+    for (const Touch touch : touched_) touched_before_[place[digit(touch)]++] = touch;
     std::swap(touched_, touched_before_);
   }
 }
 
-/// What counts is how a triangle was first touched.
 void Triangulation::sum_up_changes() {
   changes_.made.clear();
   changes_.unmade.clear();
-  touched_at_.resize(std::max(touched_at_.size(), triangle_bound_));
-  std::size_t known = 0;
-  for (const Touch& touch : touched_) {
-    const std::uint32_t at = touched_at_[touch.triangle.index()];
-    if (at < known && touched_[at].triangle == touch.triangle) continue;
-    touched_at_[touch.triangle.index()] = static_cast<std::uint32_t>(known);
-    touched_[known++] = touch;
-  }
-  touched_.resize(known);
+  changes_.moved.clear();
   sort_touched();
-  for (const Touch& first : touched_) {
-    if (first.was_there) changes_.unmade.push_back(first.triangle);
-    if (is_triangle(first.triangle)) changes_.made.push_back(first.triangle);
+  for (const Touch touch : touched_) {
+    if (touch.was_there()) changes_.unmade.push_back(touch.triangle());
+    if (touch.has_only_moved()) changes_.moved.push_back(touch.triangle());
+    if (is_triangle(touch.triangle())) changes_.made.push_back(touch.triangle());
   }
 }
 
@@ -407,9 +399,24 @@ std::vector<ConstraintId> Triangulation::constraints(VertexId v) const {
   return found;
 }
 
+/// Whether a constraint ends at a vertex, or a segment of it.
+bool Triangulation::may_have_points_at(VertexId v) const {
+  if (v.index() < without_length_.size() && !without_length_[v.index()].is_none()) return true;
+  const EdgeId first = edge(v);
+  if (first.is_none()) return false;
+  EdgeId e = first;
+  do {
+    for (const Passage passage : passages(e))
+      if (ends_at(passage.segment(), v)) return true;
+    e = rotated(e);
+  } while (e != first);
+  return false;
+}
+
 /// Points of constraints at a vertex: what remains of its uses are insert(Point)s and split()s.
 std::size_t Triangulation::count_points_at(VertexId v) const {
   std::size_t count = 0;
+  if (!may_have_points_at(v)) return count;
   for (const ConstraintId c : constraints(v))
     for_each_point(c, [&](VertexId w) { count += w == v ? 1U : 0U; });
   return count;

@@ -143,6 +143,10 @@ class Triangulation {
   /// Undoes one insert(Point) or split(): the vertex goes if nothing else needs it. Also throws if
   /// all that is there are points of constraints. Cost: the points of the constraints there.
   void remove(VertexId v);
+  /// Removes constraints, each named once, and undoes one insert(Point) or split() at each of some
+  /// vertices. The same as one after the other, but in one edit, and faster, as what they have in
+  /// common goes at once.
+  void remove(std::span<const ConstraintId> ids, std::span<const VertexId> vertices);
   /// Splits an edge at a point on it or so close to it that the four new triangles are
   /// counter-clockwise, whatever else is between; nothing happens if they are not, or if the edge
   /// has nothing but infinity on both sides and the point is not strictly between its ends.
@@ -342,9 +346,23 @@ class Triangulation {
     passed = 1,   // a segment that does not end there goes through
     crowded = 2,  // there is another vertex hardly apart
   };
-  struct Touch {
-    TriangleId triangle;
-    bool was_there;
+  /// How an edit touched a triangle: what counts is whether it was there before, and whether it is
+  /// the same but for where its corners are. As one number, sorted by triangle.
+  class Touch {
+   public:
+    constexpr Touch() = default;
+    constexpr Touch(TriangleId t, bool was_there, bool has_only_moved)
+        : bits_(t.index() << 2 | (was_there ? 2U : 0U) | (has_only_moved ? 1U : 0U)) {}
+
+    [[nodiscard]] constexpr TriangleId triangle() const { return TriangleId(bits_ >> 2); }
+    [[nodiscard]] constexpr bool was_there() const { return (bits_ & 2) != 0; }
+    [[nodiscard]] constexpr bool has_only_moved() const { return (bits_ & 1) != 0; }
+    constexpr void change() { bits_ &= ~1U; }
+
+    friend constexpr auto operator<=>(Touch, Touch) = default;
+
+   private:
+    std::uint32_t bits_ = 0;
   };
 
   static constexpr std::uint32_t unused = 0xffff'ffff;
@@ -358,8 +376,13 @@ class Triangulation {
   void free_triangle(TriangleId t);
   void free_vertex(VertexId v);
   void touch(TriangleId t) {
-    if (is_recording_) touched_.push_back({t, true});
+    if (is_recording_) note(Touch(t, true, false));
   }
+  /// Its corners are elsewhere; what else there is to it stays.
+  void touch_moved(TriangleId t) {
+    if (is_recording_) note(Touch(t, true, true));
+  }
+  void note(Touch touch);
   void set_from(EdgeId e, VertexId from) { edges_[e.index()].from = from; }
   [[nodiscard]] Side side(EdgeId e) const {
     const std::uint32_t bits = edges_[e.index()].bits;
@@ -417,6 +440,11 @@ class Triangulation {
   [[nodiscard]] EdgeId hint_for(Point point) const;
   [[nodiscard]] VertexId split_at(Location place, Point point);
   void doubt_others_on(EdgeId e, Point point);
+  [[nodiscard]] bool has_constrained_side(TriangleId t) const {
+    const OrientedEdge* sides = &edges_[3 * t.index()];
+    return ((sides[0].bits | sides[1].bits | sides[2].bits) & OrientedEdge::constrained) != 0;
+  }
+  [[nodiscard]] EdgeId led_through(EdgeId inside, Point point) const;
   std::pair<EdgeId, EdgeId> add_flat_edge(VertexId a, VertexId b);
   void start(VertexId a, VertexId b);
   void extend(EdgeId end_to_infinity, VertexId v);
@@ -517,7 +545,8 @@ class Triangulation {
   [[nodiscard]] TriangleId spare_triangle(VertexId a, VertexId b, VertexId c);
 
   // remove.cpp
-  void take_out(ConstraintId id);
+  void check_own_point(VertexId v) const;
+  void take_out(std::span<const ConstraintId> ids, std::span<const VertexId> vertices = {});
   void take_off(SegmentId s);
   [[nodiscard]] bool may_be_tangled(SegmentId s) const;
   void take_off_around(VertexId start, SegmentId s);
@@ -535,6 +564,7 @@ class Triangulation {
   void lay_again();
   void release_points(ConstraintId id);
   [[nodiscard]] std::size_t count_points_at(VertexId v) const;
+  [[nodiscard]] bool may_have_points_at(VertexId v) const;
   void note_edited(ConstraintId id);
   void forget_dead_snaps();
   void tidy_snaps();
@@ -561,9 +591,19 @@ class Triangulation {
   void move_to(ConstraintId id, std::span<const Point> points);
   void replace(ConstraintId id, std::span<const Point> points);
   void move_in_place(ConstraintId id, std::span<const Point> points);
+  void take_off_all_but_plain(ConstraintId id);
   [[nodiscard]] EdgeId plain_edge(SegmentId s) const;
+  [[nodiscard]] EdgeId plain_edge_now(SegmentId s, EdgeId known) const;
+  void move_vertices(ConstraintId id, std::span<const Point> points);
+  void move_together(ConstraintId id, std::span<const Point> points);
+  void put_back(VertexId v);
+  void turn_passages(ConstraintId id);
+  [[nodiscard]] bool has_room(VertexId v, Point point) const;
+  [[nodiscard]] bool has_room_beside_moved(VertexId v) const;
   [[nodiscard]] bool move_vertex(VertexId v, Point point);
-  void push_around(VertexId v);
+  void suspect_around(VertexId v);
+  void settle_plain(ConstraintId id);
+  void replace_still(ConstraintId id, std::span<const Point> points);
   [[nodiscard]] bool has_moved(VertexId v) const {
     return v != infinite && (uses_[v.index()] & moved) != 0;
   }
@@ -626,6 +666,8 @@ class Triangulation {
   std::vector<char> stays_;
   std::vector<EdgeId> plain_;
   std::vector<std::uint32_t> still_;
+  std::vector<Point> places_before_;
+  std::vector<VertexId> moving_;
   std::vector<std::pair<Point, Point>> edited_;
   Cavity left_;
   Cavity right_;

@@ -68,8 +68,21 @@ TriangleId Triangulation::new_triangle() {
     if (edge_bound() >= edges_.size()) grow();
     ++triangle_bound_;
   }
-  if (is_recording_) touched_.push_back({t, false});
+  if (is_recording_) note(Touch(t, false, false));
   return t;
+}
+
+/// Each triangle once: what counts is how it was touched first, and whether it only moved since.
+void Triangulation::note(Touch touch) {
+  const std::uint32_t t = touch.triangle().index();
+  if (t >= touched_at_.size()) touched_at_.resize(edges_.size() / 3);
+  std::uint32_t& at = touched_at_[t];
+  if (at >= touched_.size() || touched_[at].triangle() != touch.triangle()) {
+    at = static_cast<std::uint32_t>(touched_.size());
+    touched_.push_back(touch);
+  } else if (!touch.has_only_moved()) {
+    touched_[at].change();
+  }
 }
 
 /// Room for more triangles: a little at a time, so that no memory is touched in vain.
@@ -149,8 +162,12 @@ VertexId Triangulation::insert_near(Point point, EdgeId hint) {
   }
   if (epsilon_ > 0) {
     if (const VertexId v = merge(place, point); !v.is_none()) return v;
-  } else if (place.kind == Location::Kind::edge && is_constrained(place.edge)) {
-    doubt_others_on(place.edge, point);
+  } else {
+    if (place.kind == Location::Kind::triangle && has_constrained_side(triangle(place.edge)))
+      if (const EdgeId e = led_through(place.edge, point); !e.is_none())
+        place = {Location::Kind::edge, e};
+    if (place.kind == Location::Kind::edge && is_constrained(place.edge))
+      doubt_others_on(place.edge, point);
   }
   const VertexId v = split_at(place, point);
   if (epsilon_ == 0) settle_new(v);
@@ -199,6 +216,20 @@ VertexId Triangulation::split_at(Location place, Point point) {
     split_triangle(triangle(place.edge), v);
   }
   return v;
+}
+
+/// The side of the triangle left of an edge that has segments along it which all lead through a
+/// point inside, as that is where a point of each rounds to; none if there is no such side.
+EdgeId Triangulation::led_through(EdgeId inside, Point p) const {
+  const auto leads = [&](Passage passage) {
+    const Segment& s = segment(passage.segment());
+    return rounds_to(point(s.from), point(s.to), p);
+  };
+  for (const EdgeId e : {inside, next(inside), prev(inside)})
+    if (is_constrained(e) && is_boxed(point(from(e)), point(to(e)), p) &&
+        std::ranges::all_of(passages(e), leads) && can_split(e, p))
+      return e;
+  return EdgeId::none();
 }
 
 /// Notes the segments along an edge that are led through a point without being there.

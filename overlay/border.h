@@ -4,6 +4,7 @@
 #include <compare>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "overlay/flat_map.h"
@@ -42,6 +43,13 @@ class Border {
   void add(const BorderEdge& edge) {
     slots_.set(edge.edge.index(), static_cast<std::uint32_t>(edges_.size()));
     edges_.push_back(edge);
+  }
+
+  /// Puts an edge that is there where it is now, if that is elsewhere. Returns what it was then.
+  std::optional<BorderEdge> move(const BorderEdge& edge) {
+    const std::uint32_t slot = slots_.find(edge.edge.index());
+    if (slot == FlatMap::none || edges_[slot].is_at(edge)) return std::nullopt;
+    return std::exchange(edges_[slot], edge);
   }
 
   /// Takes an edge out, if it is there.

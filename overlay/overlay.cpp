@@ -82,7 +82,7 @@ void Overlay::translate(RingId ring, Point by) {
   std::vector<Point> moved = parts_->mesh.points(ring);
   for (Point& p : moved) p = {p.x + by.x, p.y + by.y};
   parts_->check_usable(layer(ring), moved);
-  parts_->mesh.translate(ring, by);
+  parts_->mesh.move(ring, moved);
   parts_->finish_edit();
 }
 

@@ -72,9 +72,9 @@ void Overlay::Parts::follow() {
   const cdt::Changes& changes = mesh.changes();
   follower.follow(changes);
   covers.grow(mesh.triangle_bound(), windings.cover_count());
-  for (const TriangleId t : changes.unmade)
+  for (const TriangleId t : follower.unmade())
     if (!mesh.is_triangle(t)) covers.set(t, nothing);
-  for (const TriangleId t : changes.made) cover_anew(t);
+  for (const TriangleId t : follower.remade()) cover_anew(t);
   for (const TriangleId t : follower.changed()) cover_anew(t);
   gather_edges(changes);
   for (auto& result : results)
@@ -86,16 +86,19 @@ void Overlay::Parts::follow() {
 /// Where borders may have changed, of any result.
 void Overlay::Parts::gather_edges(const cdt::Changes& changes) {
   bordering.resize(mesh.triangle_bound());
-  gone.clear();
-  for (const TriangleId t : changes.unmade) {
-    const unsigned corners = std::exchange(bordering[t.index()], std::uint8_t{0});
+  const auto add_bordering = [](std::vector<EdgeId>& edges, TriangleId t, unsigned corners) {
     for (unsigned corner = 0; corners >> corner != 0; ++corner)
-      if ((corners >> corner & 1U) != 0) gone.push_back(Triangulation::edge(t, corner));
-  }
+      if ((corners >> corner & 1U) != 0) edges.push_back(Triangulation::edge(t, corner));
+  };
+  moved.clear();
+  for (const TriangleId t : changes.moved) add_bordering(moved, t, bordering[t.index()]);
+  gone.clear();
+  for (const TriangleId t : follower.unmade())
+    add_bordering(gone, t, std::exchange(bordering[t.index()], std::uint8_t{0}));
   doubtful.clear();
   constexpr std::uint8_t is_new = 1U << 3;
   const auto for_each_new = [&](auto visit) {
-    for (const TriangleId t : changes.made) visit(t);
+    for (const TriangleId t : follower.remade()) visit(t);
     for (const TriangleId t : follower.changed()) visit(t);
   };
   for_each_new([&](TriangleId t) { bordering[t.index()] |= is_new; });
@@ -115,6 +118,17 @@ void Overlay::Parts::gather_edges(const cdt::Changes& changes) {
 void Overlay::Parts::forget(Result& result) {
   result.change = {};
   for (const EdgeId e : gone) take_border(result, e);
+  move_borders(result);
+}
+
+void Overlay::Parts::move_borders(Result& result) const {
+  for (const EdgeId e : moved) {
+    const BorderEdge now = border_edge(mesh, e);
+    const auto before = result.border.move(now);
+    if (!before) continue;
+    result.change.gone.push_back(*before);
+    result.change.come.push_back(now);
+  }
 }
 
 void Overlay::Parts::cover_anew(TriangleId t) { covers.set(t, windings.cover(follower[t])); }

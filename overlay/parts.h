@@ -73,6 +73,7 @@ struct Overlay::Parts {
   std::vector<std::optional<Result>> results;
   std::vector<std::uint8_t> bordering;  // by triangle: corners whose edges may border a result
   std::vector<EdgeId> gone;             // of one edit: of triangles that are no more, bordering
+  std::vector<EdgeId> moved;            // of those that have only moved, bordering
   std::vector<EdgeId> doubtful;         // and constrained ones, on either side of what changed
   bool is_in_batch = false;
   std::size_t revision = 0;
@@ -111,6 +112,7 @@ struct Overlay::Parts {
   void update(Result& result);
   void gather_edges(const cdt::Changes& changes);
   void forget(Result& result);
+  void move_borders(Result& result) const;
   [[nodiscard]] bool may_border(EdgeId e) const {
     return (unsigned{bordering[e.index() / 3]} >> e.index() % 3 & 1U) != 0;
   }

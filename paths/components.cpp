@@ -78,7 +78,7 @@ void Components::update(const FreeSpace& space, std::span<const TriangleId> touc
     if (leaders_[i] == i) give_label(searches_[i]);
   for (const Search& search : searches_)
     for (const TriangleId t : search.reached) search_of_[t.index()] = none;
-  searches_.clear();
+  searches_ = {};
   for (const TriangleId t : touched) {
     is_touched_[t.index()] = false;
     hole_of_[t.index()] = none;
@@ -132,15 +132,9 @@ void Components::start_searches(const FreeSpace& space, std::span<const Triangle
   }
   find_holes(space, touched);
   leaders_.clear();
-  const auto begin = [this](TriangleId t, std::uint32_t hole) {
-    const auto search = static_cast<std::uint32_t>(searches_.size());
-    searches_.emplace_back().hole = hole;
-    leaders_.push_back(search);
-    return reach(t, search);
-  };
   for (const TriangleId t : touched) {
     if (!space.is_free(t) || search_of_[t.index()] != none) continue;
-    std::uint32_t search = begin(t, hole_of_[t.index()]);
+    std::uint32_t search = reach(t, new_search(hole_of_[t.index()]));
     front_.assign(1, t);
     while (!front_.empty()) {
       const TriangleId here = front_.back();
@@ -160,11 +154,25 @@ void Components::start_searches(const FreeSpace& space, std::span<const Triangle
       const std::uint32_t hole = hole_of_[t.index()];
       const std::uint32_t known = search_of_[beside.index()];
       if (known == none)
-        begin(beside, hole);
+        (void)reach(beside, new_search(hole));
       else
         join_holes(searches_[leader(known)].hole, hole);
     }
   }
+}
+
+std::uint32_t Components::new_search(std::uint32_t hole) {
+  const auto search = static_cast<std::uint32_t>(searches_.size());
+  if (search == all_searches_.size()) all_searches_.emplace_back();
+  searches_ = std::span(all_searches_).first(search + 1);
+  Search& one = searches_.back();
+  one.reached.clear();
+  one.labels.clear();
+  one.next = 0;
+  one.hole = hole;
+  one.is_over = false;
+  leaders_.push_back(search);
+  return search;
 }
 
 std::uint32_t Components::leader(std::uint32_t search) const {

@@ -54,6 +54,7 @@ class Components {
   void flood_from(const FreeSpace& space, cdt::TriangleId start);
   void find_holes(const FreeSpace& space, std::span<const cdt::TriangleId> touched);
   void start_searches(const FreeSpace& space, std::span<const cdt::TriangleId> touched);
+  std::uint32_t new_search(std::uint32_t hole);
   std::uint32_t reach(cdt::TriangleId t, std::uint32_t search);
   std::uint32_t meet(std::uint32_t a, std::uint32_t b);
   [[nodiscard]] std::uint32_t leader(std::uint32_t search) const;
@@ -67,7 +68,8 @@ class Components {
   std::vector<std::uint32_t> joined_;  // by label: another one for the same component, or itself
 
   // Of one update.
-  std::vector<Search> searches_;
+  std::vector<Search> all_searches_;  // those of this update come first; others spare memory
+  std::span<Search> searches_;
   std::vector<std::uint32_t> leaders_;    // by search: one that it has met, or itself
   std::vector<std::uint32_t> search_of_;  // by triangle
   std::vector<std::uint32_t> hole_of_;    // by triangle

@@ -51,6 +51,7 @@ void FreeSpace::follow() {
   has_changed_everywhere_ = false;
 
   const std::size_t triangles = mesh_->triangle_bound();
+  is_free_.resize(triangles);
   beyond_.resize(3 * triangles);
   corners_.resize(3 * triangles);
   is_touched_.resize(triangles);
@@ -59,21 +60,40 @@ void FreeSpace::follow() {
   around_.clear();
   for (const TriangleId t : mesh_->changes().unmade) {
     if (mesh_->is_triangle(t)) continue;
+    is_free_[t.index()] = 0;
     for (unsigned corner = 0; corner < 3; ++corner) {
       beyond_[3 * t.index() + corner] = EdgeId::none();
       corners_[3 * t.index() + corner] = EdgeId::none();
     }
   }
-  for (const TriangleId t : mesh_->changes().made) touch(t);
-  for (const TriangleId t : overlay_->recovered()) touch(t);
-  for (const TriangleId t : touched_) open_sides(t);
+  touch_changed();
+  const auto changed = std::span(touched_).first(changed_);
+  for (const TriangleId t : changed) free(t);
+  for (const TriangleId t : changed) open_sides(t);
   for (const VertexId v : around_) turn_at(v);
-  components_.update(*this, touched_);
+  components_.update(*this, changed);
   if (gaps_) gaps_->follow(*this, mesh_->changes().unmade, touched_);
   list_changes();
   for (const TriangleId t : touched_) is_touched_[t.index()] = false;
   for (const VertexId v : around_) is_around_[v.index()] = false;
 }
+
+/// Those that have only moved come last: of them, only where ways turn may be new.
+void FreeSpace::touch_changed() {
+  const cdt::Changes& changes = mesh_->changes();
+  auto moved = changes.moved.begin();
+  for (const TriangleId t : changes.made) {
+    if (moved != changes.moved.end() && *moved == t)
+      ++moved;
+    else
+      touch(t);
+  }
+  for (const TriangleId t : overlay_->recovered()) touch(t);
+  changed_ = touched_.size();
+  for (const TriangleId t : changes.moved) touch(t);
+}
+
+void FreeSpace::free(TriangleId t) { is_free_[t.index()] = overlay_->is_in(free_, t) ? 1 : 0; }
 
 /// Of walls all that are beside what was made.
 void FreeSpace::list_changes() {
@@ -100,10 +120,13 @@ void FreeSpace::build() {
   has_changed_everywhere_ = true;
   came_.clear();
   gone_.clear();
+  is_free_.assign(mesh_->triangle_bound(), 0);
   beyond_.assign(mesh_->edge_bound(), EdgeId::none());
   corners_.assign(mesh_->edge_bound(), EdgeId::none());
   is_touched_.assign(mesh_->triangle_bound(), false);
   is_around_.assign(mesh_->vertex_bound(), false);
+  for (std::uint32_t i = 0; i < mesh_->triangle_bound(); ++i)
+    if (mesh_->is_triangle(TriangleId(i))) free(TriangleId(i));
   for (std::uint32_t i = 0; i < mesh_->triangle_bound(); ++i)
     if (mesh_->is_triangle(TriangleId(i))) open_sides(TriangleId(i));
   for (std::uint32_t i = 1; i < mesh_->vertex_bound(); ++i)
@@ -147,7 +170,8 @@ void FreeSpace::open_sides(TriangleId t) {
 void FreeSpace::turn_at(VertexId v) {
   turn_corners(
       *mesh_, v, [this](TriangleId t) { return is_free(t); },
-      [this](EdgeId e) { return beyond(e); }, corners_);
+      [this](EdgeId e) { return beyond(e); },
+      [this](EdgeId e, EdgeId last) { corners_[e.index()] = last; });
 }
 
 void FreeSpace::triangles_at(Point p, std::vector<TriangleId>& found) const {

@@ -68,7 +68,7 @@ class FreeSpace {
   [[nodiscard]] const overlay::Overlay& overlay() const { return *overlay_; }
   [[nodiscard]] const Triangulation& mesh() const { return *mesh_; }
 
-  [[nodiscard]] bool is_free(TriangleId t) const { return overlay_->is_in(free_, t); }
+  [[nodiscard]] bool is_free(TriangleId t) const { return is_free_[t.index()] != 0; }
   /// The twin of an edge, if it can be crossed from the triangle on its left; none otherwise.
   [[nodiscard]] EdgeId beyond(EdgeId e) const { return beyond_[e.index()]; }
   /// What is free around from(e), on the left of e, if ways turn there: it spans more than half a
@@ -106,7 +106,9 @@ class FreeSpace {
 
  private:
   void build();
+  void touch_changed();
   void touch(TriangleId t);
+  void free(TriangleId t);
   void open_sides(TriangleId t);
   void turn_at(VertexId v);
   void list_changes();
@@ -121,13 +123,15 @@ class FreeSpace {
   bool has_changed_everywhere_ = true;
   std::vector<Side> came_;
   std::vector<Side> gone_;
-  std::vector<EdgeId> beyond_;   // by edge
-  std::vector<EdgeId> corners_;  // by edge
+  std::vector<std::uint8_t> is_free_;  // by triangle
+  std::vector<EdgeId> beyond_;         // by edge
+  std::vector<EdgeId> corners_;        // by edge
   Components components_;
   std::unique_ptr<Gaps> gaps_;
 
   // Of one update.
   std::vector<TriangleId> touched_;
+  std::size_t changed_ = 0;  // those of them that have not only moved come first
   std::vector<bool> is_touched_;
   std::vector<VertexId> around_;
   std::vector<bool> is_around_;

@@ -79,7 +79,7 @@ void Gaps::build(const FreeSpace& space) {
   mesh_.clear();
   walls_.clear();
   is_foot_.clear();
-  beyond_.clear();
+  ways_.clear();
   wall_of_.assign(space.mesh().edge_bound(), ConstraintId::none());
   gone_.clear();
   come_.clear();
@@ -116,16 +116,18 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
   gone_.clear();
   come_.clear();
   for (const TriangleId t : unmade)
-    for (unsigned corner = 0; corner < 3; ++corner) take_out(Triangulation::edge(t, corner));
+    for (unsigned corner = 0; corner < 3; ++corner)
+      if (const EdgeId e = Triangulation::edge(t, corner); has_wall(e)) take_out(e);
   for (const TriangleId t : touched)
-    for (unsigned corner = 0; corner < 3; ++corner) check(space, Triangulation::edge(t, corner));
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(t, corner);
+      if (space.mesh().is_constrained(e) || has_wall(e) || has_wall(space.mesh().twin(e)))
+        check(space, e);
+    }
   keep_common();
   if (gone_.empty() && come_.empty()) return;
   mesh_.begin_batch();
-  for (const Edit& edit : gone_) {
-    remove_feet(edit.constraint);
-    mesh_.remove(edit.constraint);
-  }
+  remove_gone();
   for (Edit& edit : come_) lay(edit);
   mesh_.end_batch();
   take_over_edit();
@@ -134,7 +136,7 @@ void Gaps::follow(const FreeSpace& space, std::span<const TriangleId> unmade,
 
 /// The wall of an edge is gone, if it had one.
 void Gaps::take_out(EdgeId e) {
-  if (e.index() >= wall_of_.size() || wall_of_[e.index()].is_none()) return;
+  if (!has_wall(e)) return;
   const ConstraintId c = std::exchange(wall_of_[e.index()], ConstraintId::none());
   const cdt::Segment& wall = mesh_.segments(c)[0];
   gone_.push_back({mesh_.point(wall.from), mesh_.point(wall.to), walls_[c.index()], e, c});
@@ -146,7 +148,6 @@ void Gaps::check(const FreeSpace& space, EdgeId e) {
   if (mesh.from(e) == Triangulation::infinite || mesh.to(e) == Triangulation::infinite) return;
   if (mesh.point(mesh.to(e)) < mesh.point(mesh.from(e))) e = mesh.twin(e);
   const ConstraintId known = wall_of_[e.index()];
-  if (!mesh.is_constrained(e) && known.is_none()) return;
   if (!is_blocked(space, e)) return take_out(e);
   const Edit now = wall_at(space, e);
   if (!known.is_none() && walls_[known.index()] == now.wall) return;
@@ -183,11 +184,22 @@ void Gaps::lay(Edit& edit) {
   wall_of_[edit.edge.index()] = edit.constraint;
 }
 
-void Gaps::remove_feet(ConstraintId c) {
-  std::vector<VertexId> feet;
-  for (const EdgeId e : mesh_.pieces(c))
-    if (is_foot(mesh_.to(e))) feet.push_back(mesh_.to(e));
-  for (const VertexId v : feet) remove_foot(v);
+/// Walls, and the feet on them.
+void Gaps::remove_gone() {
+  idle_.clear();
+  walls_gone_.clear();
+  for (const Edit& edit : gone_) {
+    walls_gone_.push_back(edit.constraint);
+    const cdt::Segment& wall = mesh_.segments(edit.constraint)[0];
+    if (mesh_.find_edge(wall.from, wall.to)) continue;  // nothing on it
+    for (const EdgeId e : mesh_.pieces(edit.constraint)) {
+      const VertexId v = mesh_.to(e);
+      if (!is_foot(v)) continue;
+      is_foot_[v.index()] = false;
+      idle_.push_back(v);
+    }
+  }
+  mesh_.remove(walls_gone_, idle_);
 }
 
 /// What was edited is in made_ then, with all that belongs to it.
@@ -205,17 +217,18 @@ void Gaps::settle() {
     find_feet();
     if (idle_.empty() && feet_.empty()) return;
     mesh_.begin_batch();
-    for (const VertexId v : idle_) remove_foot(v);
+    remove_idle_feet();
     for (const Point& p : feet_) insert_foot(p);
     mesh_.end_batch();
-    idle_.clear();
     take_over_edit();
   }
 }
 
-void Gaps::remove_foot(VertexId v) {
-  is_foot_[v.index()] = false;
-  mesh_.remove(v);
+void Gaps::remove_idle_feet() {
+  if (idle_.empty()) return;
+  for (const VertexId v : idle_) is_foot_[v.index()] = false;
+  mesh_.remove({}, idle_);
+  idle_.clear();
 }
 
 void Gaps::insert_foot(Point p) {
@@ -234,23 +247,31 @@ void Gaps::find_feet() {
 }
 
 /// Looks from a corner over what is free there, where that is more than half a turn: else one of
-/// the walls that bound it comes nearer to any side. Through triangles that were made, or all where
-/// the walls are new.
+/// the walls that bound it comes nearer to any side.
 void Gaps::look_around(VertexId v) {
   const EdgeId first = mesh_.edge(v);
   EdgeId e = first;
   do {
     const EdgeId last = corner(e);
-    if (!last.is_none() && beyond(e).is_none()) {
-      const Sight sight{mesh_.point(v), along_wall(e, v), along_wall(Triangulation::prev(last), v)};
-      const bool is_all_new = is_made(e) || is_made(last);
-      for (EdgeId one = e;; one = mesh_.rotated(one)) {
-        if (is_all_new || is_made(one)) find_foot(sight, Triangulation::next(one), 0);
-        if (one == last) break;
-      }
-    }
+    if (!last.is_none() && beyond(e).is_none()) look_between(e, last);
     e = mesh_.rotated(e);
   } while (e != first);
+}
+
+/// Through triangles that were made, or all where the walls are new.
+void Gaps::look_between(EdgeId first, EdgeId last) {
+  const bool is_all_new = is_made(first) || is_made(last);
+  EdgeId one = first;
+  while (!is_all_new && !is_made(one)) {
+    if (one == last) return;
+    one = mesh_.rotated(one);
+  }
+  const VertexId v = mesh_.from(first);
+  const Sight sight{mesh_.point(v), along_wall(first, v), along_wall(Triangulation::prev(last), v)};
+  for (;; one = mesh_.rotated(one)) {
+    if (is_all_new || is_made(one)) find_foot(sight, Triangulation::next(one), 0);
+    if (one == last) return;
+  }
 }
 
 /// From one end of the whole wall along an edge.
@@ -299,14 +320,8 @@ bool Gaps::Sight::is_narrower_between(Direction a, Direction b) const {
 /// Feet from which no gap leads on any more.
 void Gaps::find_idle_feet() {
   idle_.clear();
-  for (const TriangleId t : made_) {
-    if (!mesh_.is_triangle(t)) continue;
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const VertexId v = mesh_.from(Triangulation::edge(t, corner));
-      if (is_foot(v) && is_idle(v)) idle_.push_back(v);
-    }
-  }
-  cdt::keep_each_once(idle_);
+  for (const VertexId v : around_)
+    if (is_foot(v) && is_idle(v)) idle_.push_back(v);
 }
 
 bool Gaps::is_idle(VertexId foot) const {
@@ -321,30 +336,17 @@ bool Gaps::is_idle(VertexId foot) const {
 
 /// Sides, widths and corners of what was made.
 void Gaps::take_over() {
-  beyond_.resize(mesh_.edge_bound());
-  widths_.resize(mesh_.edge_bound());
-  corners_.resize(mesh_.edge_bound());
+  ways_.resize(mesh_.edge_bound());
   made_in_.resize(mesh_.triangle_bound());
   is_around_.resize(mesh_.vertex_bound());
   around_.clear();
-  constexpr double unknown = -1;
   ++round_;
-  for (const TriangleId t : made_) {
-    made_in_[t.index()] = round_;
-    for (unsigned corner = 0; corner < 3; ++corner)
-      widths_[Triangulation::edge(t, corner).index()] = unknown;
-  }
+  for (const TriangleId t : made_) made_in_[t.index()] = round_;
   for (const TriangleId t : made_) {
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(t, corner);
-      const EdgeId twin = mesh_.twin(e);
-      const bool is_open =
-          is_free(t) && is_free(Triangulation::triangle(twin)) && !mesh_.is_constrained(e);
-      beyond_[e.index()] = is_open ? twin : EdgeId::none();
-      beyond_[twin.index()] = is_open ? e : EdgeId::none();
-      if (is_open && widths_[e.index()] == unknown)
-        widths_[e.index()] = widths_[twin.index()] = gap(e);
-      corners_[e.index()] = EdgeId::none();
+      open_side(e);
+      ways_[e.index()].corner = EdgeId::none();
       const VertexId v = mesh_.from(e);
       if (v == Triangulation::infinite || is_around_[v.index()]) continue;
       is_around_[v.index()] = true;
@@ -356,8 +358,22 @@ void Gaps::take_over() {
     if (is_foot(v)) continue;
     turn_corners(
         mesh_, v, [this](TriangleId t) { return is_free(t); },
-        [this](EdgeId e) { return beyond(e); }, corners_);
+        [this](EdgeId e) { return beyond(e); },
+        [this](EdgeId e, EdgeId last) { ways_[e.index()].corner = last; });
   }
+}
+
+/// Whether a side can be crossed, and the gap along it, from both sides of it.
+void Gaps::open_side(EdgeId e) {
+  const EdgeId twin = mesh_.twin(e);
+  if (twin < e && is_made(twin)) return;
+  const bool is_open = !mesh_.is_constrained(e) && is_free(Triangulation::triangle(e)) &&
+                       is_free(Triangulation::triangle(twin));
+  Way& there = ways_[e.index()];
+  Way& back = ways_[twin.index()];
+  there.beyond = is_open ? twin : EdgeId::none();
+  back.beyond = is_open ? e : EdgeId::none();
+  if (is_open) there.width = back.width = gap(e);
 }
 
 /// The segment that a foot is on.

@@ -40,14 +40,14 @@ class Gaps {
   [[nodiscard]] const cdt::Triangulation& mesh() const { return mesh_; }
   [[nodiscard]] bool is_free(cdt::TriangleId t) const { return free_[t] != 0; }
   /// The twin of an edge that can be crossed by a point, if it can; none otherwise.
-  [[nodiscard]] cdt::EdgeId beyond(cdt::EdgeId e) const { return beyond_[e.index()]; }
+  [[nodiscard]] cdt::EdgeId beyond(cdt::EdgeId e) const { return ways_[e.index()].beyond; }
   /// The same for a disc.
   [[nodiscard]] cdt::EdgeId beyond(cdt::EdgeId e, double radius) const {
     const cdt::EdgeId twin = beyond(e);
     return twin.is_none() || is_passable(e, radius) ? twin : cdt::EdgeId::none();
   }
   /// The width of the gap along an edge that can be crossed, rounded; infinite where it is none.
-  [[nodiscard]] double width(cdt::EdgeId e) const { return widths_[e.index()]; }
+  [[nodiscard]] double width(cdt::EdgeId e) const { return ways_[e.index()].width; }
   /// Whether a disc passes the gap along an edge that can be crossed: exact, one as wide as the
   /// disc is passed.
   [[nodiscard]] bool is_passable(cdt::EdgeId e, double radius) const {
@@ -57,7 +57,7 @@ class Gaps {
     return width >= clear * 2 * radius && is_passable_exactly(e, radius);
   }
   /// As FreeSpace::corner().
-  [[nodiscard]] cdt::EdgeId corner(cdt::EdgeId e) const { return corners_[e.index()]; }
+  [[nodiscard]] cdt::EdgeId corner(cdt::EdgeId e) const { return ways_[e.index()].corner; }
   [[nodiscard]] bool is_foot(cdt::VertexId v) const {
     return v.index() < is_foot_.size() && is_foot_[v.index()];
   }
@@ -69,6 +69,12 @@ class Gaps {
     bool is_free_on_right = false;
 
     friend bool operator==(const Wall&, const Wall&) = default;
+  };
+  /// What there is to an edge: beyond(), corner(), width().
+  struct Way {
+    cdt::EdgeId beyond;
+    cdt::EdgeId corner;
+    double width = 0;
   };
   struct Cross {
     const Gaps* gaps;
@@ -98,14 +104,16 @@ class Gaps {
   [[nodiscard]] bool is_passable_exactly(cdt::EdgeId e, double radius) const;
   [[nodiscard]] Edit wall_at(const FreeSpace& space, cdt::EdgeId e) const;
   [[nodiscard]] static bool is_blocked(const FreeSpace& space, cdt::EdgeId e);
+  [[nodiscard]] bool has_wall(cdt::EdgeId e) const { return !wall_of_[e.index()].is_none(); }
   void take_out(cdt::EdgeId e);
   void check(const FreeSpace& space, cdt::EdgeId e);
   void keep_common();
   void lay(Edit& edit);
-  void remove_feet(cdt::ConstraintId c);
+  void remove_gone();
   void settle();
   void find_feet();
   void look_around(cdt::VertexId v);
+  void look_between(cdt::EdgeId first, cdt::EdgeId last);
   [[nodiscard]] Direction along_wall(cdt::EdgeId e, cdt::VertexId end) const;
   void find_foot(const Sight& sight, cdt::EdgeId e, int depth);
   [[nodiscard]] bool is_made(cdt::EdgeId e) const {
@@ -114,24 +122,24 @@ class Gaps {
   void find_idle_feet();
   [[nodiscard]] bool is_idle(cdt::VertexId foot) const;
   void insert_foot(cdt::Point p);
-  void remove_foot(cdt::VertexId v);
+  void remove_idle_feet();
   void take_over_edit();
   void take_over();
+  void open_side(cdt::EdgeId e);
   [[nodiscard]] double gap(cdt::EdgeId e) const;
   [[nodiscard]] cdt::SegmentId side_with(cdt::VertexId foot) const;
 
   cdt::Triangulation mesh_;
   std::vector<Wall> walls_;  // by constraint
   cdt::Follower<char, Cross> free_;
-  std::vector<cdt::EdgeId> beyond_;         // by edge
-  std::vector<double> widths_;              // by edge
-  std::vector<cdt::EdgeId> corners_;        // by edge
+  std::vector<Way> ways_;                   // by edge
   std::vector<bool> is_foot_;               // by vertex
   std::vector<cdt::ConstraintId> wall_of_;  // by edge of the space, the upward one of two
 
   // Of one update.
   std::vector<Edit> gone_;
   std::vector<Edit> come_;
+  std::vector<cdt::ConstraintId> walls_gone_;
   std::vector<cdt::Point> feet_;
   std::vector<cdt::VertexId> idle_;
   std::vector<cdt::TriangleId> made_;

@@ -10,6 +10,7 @@
 #include <map>
 #include <numbers>
 #include <numeric>
+#include <random>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -17,6 +18,8 @@
 #include <vector>
 
 #include "cdt/check.h"
+#include "cdt/predicates.h"
+#include "cdt/rounding.h"
 #include "cdt/triangulation.h"
 #include "tests/cdt/allocations.h"
 #include "tests/cdt/judge.h"
@@ -292,6 +295,64 @@ TEST(Removal, OfVerticesInEveryOrderLeavesTheDelaunayTriangulation) {
   } while (std::ranges::next_permutation(order).found);
 }
 
+TEST(Removal, OfManyAtOnceIsThatOfOneAfterTheOther) {
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    for (const Ground ground : {Ground::grid_8, Ground::decimals, Ground::flush}) {
+      Player player;
+      for (const Edit& edit : random_script(seed, ground, 60, 12)) player.play(edit);
+      Triangulation& mesh = player.mesh();
+      std::vector<VertexId> own;
+      for (std::uint32_t i = 1; i < 40 && own.size() < 5; i += 7) {
+        const VertexId v(i);
+        if (mesh.is_vertex(v)) own.push_back(mesh.insert(mesh.point(v)));
+      }
+      const auto half = own.size() / 2;
+      const auto ids = player.ids();
+      const auto outlines = player.outlines();
+      std::vector<ConstraintId> gone;
+      std::vector<ConstraintId> left;
+      std::vector<Outline> left_outlines;
+      for (std::size_t i = 0; i < ids.size(); ++i) {
+        (i % 2 == 0 ? gone : left).push_back(ids[i]);
+        if (i % 2 != 0) left_outlines.push_back(outlines[i]);
+      }
+      mesh.remove(gone, std::span(own).first(half));
+      mesh.remove({}, std::span(own).subspan(half));
+      for (const ConstraintId id : gone) EXPECT_FALSE(mesh.is_constraint(id));
+      expect_picture(mesh, left, left_outlines);
+    }
+  }
+}
+
+TEST(Removal, OfManyAtOnceWithOneThatIsNotThereChangesNothing) {
+  Triangulation mesh;
+  const auto square = mesh.insert(Points{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, closed);
+  const std::vector<ConstraintId> ids{square, ConstraintId(7)};
+  const std::vector<VertexId> corner{vertex_at(mesh, {4, 4})};
+  EXPECT_THROW(mesh.remove(ids, {}), std::invalid_argument);
+  EXPECT_THROW(mesh.remove(std::span(ids).first(1), corner), std::invalid_argument);
+  expect_picture(mesh, {square}, {{{{0, 0}, {4, 0}, {4, 4}, {0, 4}}, closed}});
+}
+
+TEST(Insertion, OfAPointThatASegmentRoundsToSplitsIt) {
+  for (int i = 1; i < 40; ++i) {
+    Triangulation mesh;
+    const Points ends{{0.1, 0.7}, {0.1 + i / 7.0, 0.7 + 3 / 11.0}};
+    const auto line = mesh.insert(ends, open);
+    const auto cover = mesh.insert(ring(7, 9), closed);
+    const Point across{ends[0].x + 0.3, ends[0].y - i / 3.0};
+    const Point place = intersection(ends[0], ends[1], across, {across.x + 0.01, across.y + 7});
+    const VertexId v = mesh.insert(place);
+    const bool is_between = is_boxed(ends[0], ends[1], place);
+    EXPECT_EQ(mesh.constraints(v).size(), is_between ? 1U : 0U);
+    EXPECT_EQ(mesh.pieces(line).size(), is_between ? 2U : 1U);
+    EXPECT_TRUE(mesh.snaps().empty());
+    EXPECT_EQ(first_finding(mesh), "");
+    mesh.remove(v);
+    expect_picture(mesh, {line, cover}, {{ends, open}, {ring(7, 9), closed}});
+  }
+}
+
 // --- Moves ---
 
 TEST(Moving, IsRemovingAndInsertingUnderTheSameId) {
@@ -352,6 +413,58 @@ TEST(Moving, OfEverythingIntoOneLineAndBack) {
   expect_right(
       "insert 1 open 0 0 2 1\ninsert 2 open 0 2 4 4\nmove 2 4 2 6 3\nmove 1 8 4 6 3\n"
       "move 2 0 5 1 1\nremove 1\nremove 2\n");
+}
+
+/// A coast: a ring in and out, as far as `depth`.
+Points coast(std::size_t n, double depth, Point centre, std::mt19937& random) {
+  std::uniform_real_distribution<> number(0, depth);
+  Points points = ring(n, 1, {});
+  for (Point& p : points) {
+    const double reach = 10 - number(random);
+    p = {centre.x + reach * p.x, centre.y + reach * p.y};
+  }
+  return points;
+}
+
+TEST(Moving, ManyVerticesAtOnceAsFarAsThereIsRoom) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<> number(-1, 1);
+  std::vector<Outline> outlines{{coast(70, 3, {0, 0}, random), closed}};
+  for (int i = 0; i < 60; ++i)
+    outlines.push_back({{{12 * number(random), 12 * number(random)}}, open});
+  for (int i = 0; i < 6; ++i)
+    outlines.push_back({coast(12, 5, {20 * number(random), 20 * number(random)}, random), closed});
+  Triangulation mesh;
+  std::vector<ConstraintId> ids;
+  for (const auto& [points, ends] : outlines) ids.push_back(mesh.insert(points, ends));
+  for (const double step : {1e-6, 1e-3, 0.01, 0.1, 1.0, 1e-9}) {
+    for (int i = 0; i < 12; ++i) {
+      const std::size_t which = i % 2 == 0 ? 0 : 61U + static_cast<std::size_t>(i) / 2;
+      Points& points = outlines[which].points;
+      const Point by{step * number(random), step * number(random)};
+      const bool is_translation = i % 4 < 2;
+      for (Point& p : points)
+        p = is_translation ? Point{p.x + by.x, p.y + by.y}
+                           : Point{p.x + step * number(random), p.y + step * number(random)};
+      mesh.move(ids[which], points);
+      ASSERT_EQ(mesh.points(ids[which]), points);
+      expect_picture(mesh, ids, outlines);
+    }
+  }
+}
+
+TEST(Moving, TurnsSegmentsThatPointTheOtherWay) {
+  Triangulation mesh;
+  Points points{{0, 0}, {1e-3, 5}, {6, 7}, {6 - 1e-3, -1}};
+  const auto turning = mesh.insert(points, closed);
+  for (const double by : {2e-3, -2e-3, 2e-3}) {
+    points[1].x -= by;
+    points[3].x += by;
+    mesh.move(turning, points);
+    for (const EdgeId e : mesh.pieces(turning))
+      EXPECT_TRUE(mesh.is_forward(e, mesh.passages(e)[0]));
+    expect_picture(mesh, {turning}, {{points, closed}});
+  }
 }
 
 // --- Bulk insertion ---
@@ -514,6 +627,66 @@ TEST(Changes, TellAFollowerEverything) {
       ASSERT_TRUE(onlooker.agrees_with(player.mesh())) << name_of(ground);
     }
   }
+}
+
+/// Corners by their ids, and the passages of each side, as they go forward.
+using Sides = std::array<std::pair<VertexId, std::vector<std::pair<SegmentId, bool>>>, 3>;
+
+Sides sides_of(const Triangulation& mesh, TriangleId t) {
+  Sides sides;
+  for (unsigned corner = 0; corner < 3; ++corner) {
+    const EdgeId e = Triangulation::edge(t, corner);
+    sides[corner].first = mesh.from(e);
+    for (const Passage passage : mesh.passages(e))
+      sides[corner].second.emplace_back(passage.segment(), mesh.is_forward(e, passage));
+  }
+  return sides;
+}
+
+void expect_moved_keep_their_sides(const Triangulation& mesh,
+                                   const std::map<TriangleId, Sides>& before) {
+  const Changes& changes = mesh.changes();
+  EXPECT_TRUE(std::ranges::includes(changes.made, changes.moved));
+  EXPECT_TRUE(std::ranges::includes(changes.unmade, changes.moved));
+  for (const TriangleId t : changes.moved) EXPECT_EQ(sides_of(mesh, t), before.at(t)) << t;
+}
+
+TEST(Changes, OfTrianglesThatOnlyMovedLeaveTheirSides) {
+  std::size_t moved = 0;
+  for (const Ground ground : all_grounds) {
+    for (const std::size_t batch : {1U, 3U}) {
+      Player player;
+      Triangulation& mesh = player.mesh();
+      mesh.record_changes(true);
+      const Script script = random_script(9, ground, 150, 6);
+      for (std::size_t i = 0; i + batch <= script.size(); i += batch) {
+        std::map<TriangleId, Sides> before;
+        for (std::uint32_t t = 0; t < mesh.triangle_bound(); ++t)
+          if (mesh.is_triangle(TriangleId(t)))
+            before[TriangleId(t)] = sides_of(mesh, TriangleId(t));
+        if (batch > 1) mesh.begin_batch();
+        for (std::size_t k = i; k < i + batch; ++k) player.play(script[k]);
+        if (batch > 1) mesh.end_batch();
+        expect_moved_keep_their_sides(mesh, before);
+        moved += mesh.changes().moved.size();
+      }
+    }
+  }
+  EXPECT_GT(moved, 0U);
+}
+
+TEST(Changes, OfAStepAreMovesAlone) {
+  Triangulation mesh;
+  std::mt19937 random(1);
+  mesh.insert(ring(4, 100), closed);
+  const auto guest = mesh.insert(coast(32, 5, {}, random), closed);
+  mesh.record_changes(true);
+  mesh.translate(guest, {1e-9, 2e-9});
+  EXPECT_GE(mesh.changes().moved.size(), 32U);
+  EXPECT_EQ(mesh.changes().moved, mesh.changes().made);
+  EXPECT_EQ(mesh.changes().moved, mesh.changes().unmade);
+  mesh.remove(guest);
+  EXPECT_TRUE(mesh.changes().moved.empty());
 }
 
 TEST(Changes, OfASmallEditAreFew) {

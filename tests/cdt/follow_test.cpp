@@ -37,15 +37,17 @@ struct InAndOut {
   }
 };
 
-/// What follow() had to do by itself: triangles whose value is another one, but which no edit made.
+/// What follow() had to do by itself: triangles whose value is another one, but which no edit made
+/// other than by moving corners.
 std::vector<TriangleId> changed_by_hand(const Triangulation& mesh,
                                         const std::vector<Around>& before,
                                         const std::vector<Around>& after) {
   std::vector<TriangleId> changed;
-  const auto& made = mesh.changes().made;
+  const auto& [unmade, made, moved] = mesh.changes();
   for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i) {
     const TriangleId t(i);
-    if (!mesh.is_triangle(t) || std::ranges::binary_search(made, t)) continue;
+    if (!mesh.is_triangle(t)) continue;
+    if (std::ranges::binary_search(made, t) && !std::ranges::binary_search(moved, t)) continue;
     if (before[i] != after[i]) changed.push_back(t);
   }
   return changed;
@@ -114,6 +116,22 @@ TEST(Follower, SeesAPolygonJumpOverTrianglesThatStay) {
   mesh.remove(moving);
   follower.follow(mesh.changes());
   EXPECT_EQ(follower[middle].size(), 2U);
+}
+
+TEST(Follower, HasNothingToDoForWhatOnlyMoves) {
+  Triangulation mesh;
+  mesh.insert(square({0, 0}, 50), closed);
+  const ConstraintId moving = mesh.insert(
+      std::vector<Point>{{0, 0}, {5, 1}, {9, 0}, {8, 5}, {9, 9}, {4, 8}, {1, 9}, {0.5, 5}}, closed);
+  mesh.record_changes(true);
+  Follower follower(mesh, Around{}, InAndOut{&mesh});
+  mesh.translate(moving, {1e-6, -1e-6});
+  follower.follow(mesh.changes());
+  EXPECT_FALSE(mesh.changes().moved.empty());
+  EXPECT_TRUE(follower.unmade().empty());
+  EXPECT_TRUE(follower.remade().empty());
+  EXPECT_TRUE(follower.changed().empty());
+  EXPECT_EQ(follower.values(), flood(mesh, Around{}, InAndOut{&mesh}));
 }
 
 TEST(Follower, BeginsAnew) {

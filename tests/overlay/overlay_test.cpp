@@ -197,6 +197,27 @@ TEST(Overlay, TellsWhatAMoveDid) {
   EXPECT_TRUE(overlay.change(both).is_empty());
 }
 
+TEST(Overlay, TellsWhatAStepDidAlthoughNothingIsMadeAnew) {
+  Overlay overlay;
+  const LayerId a = overlay.add_layer("a");
+  const LayerId b = overlay.add_layer("b");
+  overlay.insert(a, box(0, 0, 10, 10));
+  const RingId moving = overlay.insert(b, box(3, 3, 6, 7));
+  const ResultId both = overlay.watch(Expression(a) & b);
+  const ResultId rest = overlay.watch(Expression(a) - b);
+  for (const double by : {0x1p-20, -0x1p-19}) {
+    overlay.translate(moving, {by, 0});
+    EXPECT_EQ(overlay.triangulation().changes().moved, overlay.triangulation().changes().made);
+    EXPECT_EQ(overlay.change(both).gone.size(), 4U);
+    EXPECT_EQ(overlay.change(both).come.size(), 4U);
+    EXPECT_EQ(overlay.change(rest).come.size(), 4U) << "and not the frame";
+    EXPECT_EQ(overlay.change(both).area.sign(), 0);
+    EXPECT_EQ(overlay.area(both).to_double(), 12);
+    EXPECT_EQ(overlay.area(rest).to_double(), 88);
+  }
+  EXPECT_EQ(overlay.polygons(both), (MultiPolygon{{box(3 - 0x1p-20, 3, 6 - 0x1p-20, 7), {}}}));
+}
+
 TEST(Overlay, ABatchIsOneChange) {
   Two two({square(0, 0, 2), square(10, 0, 2)}, {});
   Overlay& overlay = two.overlay;

@@ -6,6 +6,7 @@
 #include <map>
 #include <random>
 
+#include "paths/clearance.h"
 #include "tests/overlay/boxes.h"
 
 namespace loft::paths {
@@ -101,6 +102,40 @@ TEST(FreeSpace, ComponentsAreThoseOfAFreshBuildAfterAnyEdits) {
       ASSERT_NO_FATAL_FAILURE(expect_same_components(space, fresh));
     }
   }
+}
+
+TEST(FreeSpace, StepsLeaveAllAsAFreshBuild) {
+  std::mt19937 random(3);
+  const auto number = [&](double most) {
+    return std::uniform_real_distribution<>(0, most)(random);
+  };
+  Overlay overlay;
+  const LayerId room = overlay.add_layer("room");
+  const LayerId boxes = overlay.add_layer("boxes", overlay::FillRule::nonzero);
+  overlay.insert(room, box(0, 0, 100, 100));
+  std::vector<overlay::RingId> rings;
+  for (int i = 0; i < 40; ++i) {
+    const double x = number(95);
+    const double y = number(95);
+    rings.push_back(overlay.insert(boxes, box(x, y, x + 1 + number(9), y + 1 + number(9))));
+  }
+  const auto free = overlay::Expression(room) - boxes;
+  FreeSpace space(overlay, free);
+  space.keep_gaps();
+  std::size_t moved = 0;
+  for (int i = 0; i < 300; ++i) {
+    const double far = i % 3 == 0 ? 1e-3 : 0.5;
+    overlay.translate(rings[random() % rings.size()],
+                      {number(far) - far / 2, number(far) - far / 2});
+    moved += overlay.triangulation().changes().moved.size();
+    space.follow();
+    FreeSpace fresh(overlay, free);
+    ASSERT_NO_FATAL_FAILURE(expect_same_components(space, fresh));
+    if (i % 20 != 0) continue;
+    fresh.keep_gaps();
+    EXPECT_EQ(widest(space, {0, 0}, {100, 100}), widest(fresh, {0, 0}, {100, 100}));
+  }
+  EXPECT_GT(moved, 0U);
 }
 
 }  // namespace
