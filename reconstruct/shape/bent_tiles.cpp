@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <utility>
 
@@ -25,7 +26,9 @@ constexpr double usual_share = 0.014;
 constexpr int usual_levels = 2;
 constexpr double usual_nearness = 0.003;
 
-/// The same where a distance is asked for.
+/// The same where a distance is asked for; slices do not tell more, and noise of rounding would be
+/// split without end.
+constexpr double finest_share = 5e-4;
 constexpr int most_levels = 5;
 constexpr double finest_nearness = 1e-4;
 
@@ -54,6 +57,11 @@ constexpr double least_cosine_of_turn = 0.5;
 /// short by nothing.
 constexpr double overshoot = 1.5;
 
+/// The same, by no more than that share of the tolerance, and of the height of the flattest tile at
+/// it: thin tiles side by side would meet.
+constexpr double most_of_tolerance = 0.75;
+constexpr double most_of_tile = 0.25;
+
 /// 0 where directions are against each other by more than 120 degrees.
 Point unit(Point sum) {
   const double length = std::hypot(sum.x, sum.y);
@@ -73,12 +81,16 @@ bool are_turned_alike(const std::array<Vec3, 2>& before, const std::array<Vec3, 
          alike(after[1], before[0]) && alike(after[1], before[1]);
 }
 
-/// Twice the area, by the square of the longest edge.
-double form(const Corners& corners, const Vec3& normal) {
+double squared_longest(const Corners& corners) {
   const auto& [a, b, c] = corners;
-  const double longest = std::max(
+  return std::max(
       {squared_length(minus(b, a)), squared_length(minus(c, b)), squared_length(minus(a, c))});
-  return length(normal) / longest;
+}
+
+/// Upon the longest edge.
+double least_height(const Corners& corners) {
+  const auto& [a, b, c] = corners;
+  return length(cross(minus(b, a), minus(c, a))) / std::sqrt(squared_longest(corners));
 }
 
 /// An edge of the tiles, or one that was or may be.
@@ -334,7 +346,8 @@ class Bending {
     return cross(minus(at(b), at(a)), minus(at(c), at(a)));
   }
 
-  /// By how much nearer the other diagonal is, and better formed.
+  /// By how much nearer the other diagonal is, and better formed: by twice the area of the thinner
+  /// triangle, over the square of its longest edge.
   [[nodiscard]] double gain_of_flip(std::uint32_t half) {
     const std::uint32_t a = half_edges_.from(half);
     const std::uint32_t b = half_edges_.to(half);
@@ -354,21 +367,31 @@ class Bending {
                                   const std::array<std::uint32_t, 3>& second) const {
     const auto form_of = [&](const std::array<std::uint32_t, 3>& nodes) {
       const auto& [a, b, c] = nodes;
-      return form({place(a), place(b), place(c)}, normal(a, b, c, false));
+      return length(normal(a, b, c, false)) / squared_longest({place(a), place(b), place(c)});
     };
     return std::min(form_of(first), form_of(second));
   }
 
   // --- The places of vertices ---
 
-  /// Moves each vertex by what the edges at it stay short.
+  /// What is at an inner vertex.
+  struct Around {
+    Vec3 ways{};  // from the middles of edges to the smooth surface, added up
+    double count = 0;
+    double flattest = std::numeric_limits<double>::infinity();  // height of a tile
+  };
+
+  /// Moves each inner vertex by what the edges at it stay short.
   void go_beyond() {
-    const std::vector<Vec3> ways = mean_ways();
-    for (std::uint32_t i = 0; i < ways.size(); ++i) {
+    const std::vector<Around> around = look_around();
+    for (std::uint32_t i = 0; i < around.size(); ++i) {
       VertexMove& move = bent_.moves[i];
       Vec3& there = bent_.tiles.inner[i].place;
-      const Vec3 more = cut_off(along({}, overshoot, ways[i]), fineness_.tolerance);
-      const Vec3 beyond = along(there, 1, more);
+      const auto& [ways, count, flattest] = around[i];
+      const double most =
+          std::min(most_of_tolerance * fineness_.tolerance, most_of_tile * flattest);
+      const Vec3 beyond =
+          count > 0 ? along(there, 1, cut_off(along({}, overshoot / count, ways), most)) : there;
       if (move.edge[0] != Origin::none)
         move.start = edge_middle(place(move.edge[0]), place(move.edge[1]));
       move.way = minus(between_slices(lower_.z, upper_.z, beyond, move.start[2]), move.start);
@@ -376,26 +399,28 @@ class Bending {
     }
   }
 
-  /// From the edges at each inner vertex to the smooth surface, as far as they were looked at.
-  [[nodiscard]] std::vector<Vec3> mean_ways() {
-    std::vector<Vec3> ways(bent_.moves.size());
-    std::vector<double> counts(bent_.moves.size());
+  [[nodiscard]] std::vector<Around> look_around() {
+    std::vector<Around> found(bent_.moves.size());
     for (std::uint32_t half = 0; half < half_edges_.count(); ++half) {
-      const std::uint32_t twin = half_edges_.twin(half);
-      if (twin == Origin::none || half > twin) continue;
       const std::uint32_t a = half_edges_.from(half);
       const std::uint32_t b = half_edges_.to(half);
-      const BentEdge& bent = edge(a, b);
-      for (const std::uint32_t end : {a, b}) {
-        if (end < contour_count_) continue;
-        if (bent.off > 0)
-          ways[end - contour_count_] = along(ways[end - contour_count_], 1, bent.way);
-        ++counts[end - contour_count_];
+      const std::uint32_t c = half_edges_.apex(half);
+      if (c >= contour_count_) {
+        double& flattest = found[c - contour_count_].flattest;
+        flattest = std::min(flattest, least_height({place(a), place(b), place(c)}));
       }
+      const std::uint32_t twin = half_edges_.twin(half);
+      if (twin == Origin::none || half > twin || std::max(a, b) < contour_count_) continue;
+      const BentEdge& bent = edge(a, b);
+      for (const std::uint32_t end : {a, b})
+        if (end >= contour_count_) add(found[end - contour_count_], bent);
     }
-    for (std::size_t i = 0; i < ways.size(); ++i)
-      if (counts[i] > 0) ways[i] = along({}, 1 / counts[i], ways[i]);
-    return ways;
+    return found;
+  }
+
+  static void add(Around& around, const BentEdge& bent) {
+    if (bent.off > 0) around.ways = along(around.ways, 1, bent.way);
+    ++around.count;
   }
 
   const Region& lower_;
@@ -420,7 +445,8 @@ class Bending {
 }  // namespace
 
 Fineness fineness(double height, std::optional<double> tolerance) {
-  if (tolerance && *tolerance > 0) return {*tolerance, most_levels, finest_nearness};
+  if (tolerance && *tolerance > 0)
+    return {std::max(*tolerance, finest_share * height), most_levels, finest_nearness};
   return {usual_share * height, usual_levels, usual_nearness};
 }
 

@@ -35,7 +35,8 @@ struct Fineness {
   double nearness;   ///< places are found as near as that, as a share of the slab's height
 };
 
-/// That of a slab of some height: `tolerance`, or what its slices are worth.
+/// That of a slab of some height: `tolerance`, but no finer than a 2000th of the height; not set or
+/// 0: what its slices are worth.
 [[nodiscard]] Fineness fineness(double height, std::optional<double> tolerance);
 
 /// Bends tiles, wherever others are.
