@@ -4,29 +4,30 @@
 #include <algorithm>
 #include <deque>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <stdexcept>
 #include <string>
 #include <utility>
 
-#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/clean/heights.h"
 #include "reconstruct/clean/lines.h"
 #include "reconstruct/link/linking.h"
 #include "reconstruct/link/tips.h"
+#include "reconstruct/out_of_core/label_ends.h"
+#include "reconstruct/out_of_core/passing_on.h"
+#include "reconstruct/out_of_core/read_region.h"
+#include "reconstruct/out_of_core/region_queue.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/sew/caps.h"
 #include "reconstruct/sew/sewing.h"
-#include "reconstruct/sew/survey.h"
 #include "reconstruct/sew/used_points.h"
 #include "reconstruct/shape/refine.h"
 #include "reconstruct/shape/smooth.h"
 #include "reconstruct/tile/tiles.h"
+#include "reconstruct/usable.h"
 
 namespace loft {
 
@@ -36,256 +37,9 @@ namespace {
 /// enough to take little memory.
 constexpr std::size_t group_size = std::size_t{1} << 17U;
 
-/// The regions of a stack in the order of their heights, of the empty ones at both ends only the
-/// nearest; those that are no longer needed are forgotten.
-class Regions {
- public:
-  /// `is_bottom`: the first one that comes is the first there is.
-  Regions(Cap cap, std::optional<double> gap, bool is_bottom)
-      : cap_(cap),
-        gap_(gap),
-        volume_(gap.value_or(0)),
-        has_low_end_(!is_bottom),
-        has_filled_(!is_bottom),
-        has_loops_(!is_bottom) {}
-
-  void add(Region region) {
-    count_volume(region);
-    if (region.is_empty()) {
-      if (!has_filled_ && cap_ == Cap::extend) return;
-      if (!has_filled_) empty_.clear();  // only the nearest one counts
-      empty_.push_back(std::move(region));
-      return;
-    }
-    append_empty();
-    has_filled_ = true;
-    has_loops_ = has_loops_ || region.has_loops();
-    append(std::move(region));
-  }
-
-  /// There are more, but they do not come.
-  void break_off() { append_empty(); }
-
-  /// No more come.
-  void end() {
-    if (!has_loops_) throw too_few_slices(nullptr);
-    if (cap_ == Cap::extend) return extend_end();
-    if (!empty_.empty()) append(std::move(empty_.front()));
-    if (bound() < 2) throw too_few_slices(&regions_.front());
-    if (cap_ == Cap::dome && regions_.back().has_loops())
-      regions_.push_back(beyond(regions_.back(), regions_[regions_.size() - 2]));
-  }
-
-  [[nodiscard]] std::size_t bound() const { return first_ + regions_.size(); }
-  [[nodiscard]] bool has(std::size_t i) const { return i >= first_ && i < bound(); }
-  /// Stays where it is until it is dropped.
-  [[nodiscard]] const Region& operator[](std::size_t i) const { return regions_[i - first_]; }
-  void drop_below(std::size_t i) {
-    for (; first_ < i; ++first_) regions_.pop_front();
-  }
-
-  /// Of all that came, without the first empty ones.
-  [[nodiscard]] double slab_volume() const { return volume_.volume(); }
-  /// Warnings of those that are empty.
-  [[nodiscard]] const std::vector<Defect>& repairs() const { return repairs_; }
-
- private:
-  void append_empty() {
-    for (Region& empty : std::exchange(empty_, {})) {
-      if (has_filled_) repairs_.push_back(empty_slice(empty));
-      append(std::move(empty));
-    }
-  }
-
-  void append(Region region) {
-    regions_.push_back(std::move(region));
-    if ((cap_ != Cap::dome && cap_ != Cap::extend) || bound() != 2 || has_low_end_) return;
-    has_low_end_ = true;
-    if (!regions_[0].has_loops()) return;
-    regions_.push_front(cap_ == Cap::dome
-                            ? beyond(regions_[0], regions_[1])
-                            : extended(regions_[0], (regions_[0].z - regions_[1].z) / 2));
-  }
-
-  void count_volume(const Region& region) {
-    if (!has_filled_ && region.is_empty()) {
-      lowest_ = region;
-      return;
-    }
-    if (const auto lowest = std::exchange(lowest_, {})) volume_.add(*lowest);
-    volume_.add(region);
-  }
-
-  void extend_end() {
-    const bool is_alone = bound() < 2;
-    if (is_alone && !gap_) throw too_few_slices(&regions_.front());
-    const Region& last = regions_.back();
-    const double gap = is_alone ? *gap_ : last.z - regions_[regions_.size() - 2].z;
-    if (!last.has_loops()) return;
-    Region above = extended(last, gap / 2);
-    if (is_alone) regions_.push_front(extended(last, -gap / 2));
-    regions_.push_back(std::move(above));
-  }
-
-  Cap cap_;
-  std::optional<double> gap_;  // of a slice that is alone
-  SlabVolume volume_;
-  std::optional<Region> lowest_;  // the nearest empty one below the first filled one
-  bool has_low_end_;
-  std::deque<Region> regions_;
-  std::size_t first_ = 0;
-  bool has_filled_;
-  bool has_loops_;
-  std::vector<Region> empty_;  // above the last filled one
-  std::vector<Defect> repairs_;
-};
-
-/// The slices at a height, cleaned.
-Region read_and_clean(const SliceSource& source, const Height& height, const Options& options,
-                      std::vector<Defect>& repairs, std::set<std::string>& labels,
-                      cdt::Triangulation& memory) {
-  std::vector<Slice> slices;
-  std::vector<const Slice*> parts;
-  slices.reserve(height.slices.size());
-  for (const std::uint32_t s : height.slices) {
-    slices.push_back(source.read(s));
-    if (auto fatal = find_unusable(slices.back(), s); !fatal.empty())
-      throw InputError(std::move(fatal));
-    parts.push_back(&slices.back());
-    if (!options.label)
-      for (const Contour& contour : slices.back().contours) labels.insert(contour.label);
-  }
-  return clean(height, parts, options, repairs, memory);
-}
-
-std::vector<double> usable_heights(const SliceSource& source) {
-  std::vector<double> z;
-  std::vector<Defect> fatal;
-  for (const SliceSource::Entry& slice : source.slices) {
-    const auto index = static_cast<std::uint32_t>(z.size());
-    std::ranges::move(find_unusable({slice.z, {}}, index), std::back_inserter(fatal));
-    z.push_back(slice.z);
-  }
-  if (!fatal.empty()) throw InputError(std::move(fatal));
-  return z;
-}
-
 bool has_flat_caps(const Options& options) {
   return options.cap == Cap::flat || options.cap == Cap::extend;
 }
-
-/// What is worked on of a label: heights, from the first region that counts or from one within it,
-/// and which of the slabs between these regions are passed on. What is not told by heights is
-/// counted from the first region worked on.
-struct Window {
-  static constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
-
-  std::size_t first_height = 0;
-  std::size_t height_count = all;
-  bool is_bottom = true;         // nothing is below
-  bool is_top = true;            // nothing is above
-  std::size_t first_region = 0;  // its number among all of the label
-  std::size_t first_slab = 0;
-  std::size_t slab_bound = all;  // all: up to the top
-};
-
-/// Where a label begins and ends among heights, and how its regions are numbered.
-class LabelEnds {
- public:
-  LabelEnds(const SliceSource& source, std::span<const Height> heights, const Options& options,
-            HeightSpan span)
-      : source_(source), heights_(heights), options_(options) {
-    find_low(span);
-    find_high(span);
-    const bool keeps_empty = options.cap != Cap::extend;
-    const bool has_beyond = options.cap == Cap::extend || options.cap == Cap::dome;
-    first_ = keeps_empty && low_ > 0 ? low_ - 1 : low_;
-    last_ = keeps_empty && high_ + 1 < heights.size() ? high_ + 1 : high_;
-    beyond_ = has_beyond && first_ == low_ && low_has_loops_ ? 1 : 0;
-    const bool has_high_end = has_beyond && last_ == high_ && high_has_loops_;
-    slab_count_ = last_ - first_ + beyond_ + (has_high_end ? 1 : 0);
-  }
-
-  /// None if the label has nothing there.
-  [[nodiscard]] std::optional<Window> window(SlabRange range) const {
-    const std::size_t first = range.first == 0 ? 0 : slabs_below(range.first);
-    const bool is_last = range.bound + 1 == heights_.size();
-    const std::size_t bound = is_last ? slab_count_ : slabs_below(range.bound);
-    if (first == bound) return std::nullopt;
-    Window window;
-    window.first_region = first - std::min(first, slices_beside_range);
-    window.is_bottom = window.first_region == 0;
-    window.is_top = bound + slices_beside_range >= slab_count_;
-    window.first_height = window.is_bottom ? first_ : first_ + window.first_region - beyond_;
-    const std::size_t last = window.is_top ? last_ : first_ + bound + slices_beside_range - beyond_;
-    window.height_count = last + 1 - window.first_height;
-    window.first_slab = first - window.first_region;
-    window.slab_bound = bound == slab_count_ ? Window::all : bound - window.first_region;
-    return window;
-  }
-
- private:
-  /// Of the label, below a height: none up to where it begins, all from where it ends.
-  [[nodiscard]] std::size_t slabs_below(std::size_t height) const {
-    if (height <= first_) return 0;
-    return height >= last_ ? slab_count_ : height - first_ + beyond_;
-  }
-
-  [[nodiscard]] Region region(std::size_t height) {
-    std::vector<Defect> ignored;
-    std::set<std::string> labels;
-    return read_and_clean(source_, heights_[height], options_, ignored, labels, memory_);
-  }
-
-  void find_low(HeightSpan span) {
-    std::optional<Region> lowest;
-    bool has_loops = false;
-    for (std::size_t i = 0; i < heights_.size() && !has_loops; ++i) {
-      if (heights_[i].z < span.lowest && !is_at(i, span.lowest)) continue;
-      Region found = region(i);
-      has_loops = found.has_loops();
-      if (lowest || found.is_empty()) continue;
-      low_ = i;
-      low_has_loops_ = has_loops;
-      lowest = std::move(found);
-    }
-    if (!has_loops) throw too_few_slices(nullptr);
-  }
-
-  void find_high(HeightSpan span) {
-    for (high_ = heights_.size() - 1; high_ > low_; --high_) {
-      if (heights_[high_].z > span.highest) continue;
-      const Region found = region(high_);
-      if (found.is_empty()) continue;
-      high_has_loops_ = found.has_loops();
-      return;
-    }
-    high_has_loops_ = low_has_loops_;
-    if (options_.cap == Cap::extend && !options_.gap) {
-      const Region only = region(low_);
-      throw too_few_slices(&only);
-    }
-  }
-
-  /// Whether a slice of that z is one of those at a height, which its lowest stands for.
-  [[nodiscard]] bool is_at(std::size_t height, double z) const {
-    return std::ranges::any_of(heights_[height].slices,
-                               [&](std::uint32_t s) { return source_.slices[s].z == z; });
-  }
-
-  const SliceSource& source_;
-  std::span<const Height> heights_;
-  const Options& options_;
-  cdt::Triangulation memory_;
-  std::size_t low_ = 0;  // the first and the last height with a region that is not empty
-  std::size_t high_ = 0;
-  bool low_has_loops_ = false;
-  bool high_has_loops_ = false;
-  std::size_t first_ = 0;  // of the first and the last region, but for those beyond the ends
-  std::size_t last_ = 0;
-  std::size_t beyond_ = 0;  // regions below the first height
-  std::size_t slab_count_ = 0;
-};
 
 /// The lines from heights to faces, group by group.
 class GroupByGroup {
@@ -294,14 +48,13 @@ class GroupByGroup {
                const Window& window = {})
       : source_(source),
         options_(options),
-        sink_(sink),
         window_(window),
         caps_below_(window.is_bottom && has_flat_caps(options) ? 1 : 0),
-        first_layer_(window.first_slab == 0 ? 0 : layer_of(window.first_slab)),
-        layer_bound_(window.slab_bound == Window::all ? Origin::none : layer_of(window.slab_bound)),
         one_label_(options.label),
         regions_(options.cap, options.gap, window.is_bottom),
         linking_(options),
+        passing_on_(sewing_, sink, window.first_slab == 0 ? 0 : layer_of(window.first_slab),
+                    window.slab_bound == Window::all ? Origin::none : layer_of(window.slab_bound)),
         memories_(thread_count(options.threads)),
         workspaces_(thread_count(options.threads)) {}
 
@@ -340,18 +93,15 @@ class GroupByGroup {
     std::ranges::move(unlinked_, std::back_inserter(repairs));
     std::ranges::stable_sort(repairs, {}, &Defect::z);
     keep_own_reports();
-    return {std::move(repairs), std::move(reports_), survey_.measures(), survey_.vertices_of_kind(),
+    Survey& survey = passing_on_.survey();
+    return {std::move(repairs), std::move(reports_), survey.measures(), survey.vertices_of_kind(),
             regions_.slab_volume()};
   }
 
   /// Of a range, once it is finished.
   [[nodiscard]] SlabsReport report_of_range(std::vector<Defect> repairs) {
-    SlabsReport made{report(std::move(repairs)), sizes_, {}, {}};
-    for (const Cut& cut : cuts_) {
-      if (is_in_lower_seam(cut)) made.lower_places.push_back(cut.place - lower_.cuts);
-      if (is_in_upper_seam(cut)) made.upper_places.push_back(cut.place - upper_.cuts);
-    }
-    return made;
+    return {report(std::move(repairs)), passing_on_.sizes(), passing_on_.lower_places(),
+            passing_on_.upper_places()};
   }
 
  private:
@@ -373,7 +123,7 @@ class GroupByGroup {
     std::vector<std::set<std::string>> labels(heights.size());
     for_each_index(heights.size(), options_.threads, [&](std::size_t i, unsigned worker) {
       cleaned[i] =
-          read_and_clean(source_, heights[i], options_, found[i], labels[i], memories_[worker]);
+          read_region(source_, heights[i], options_, found[i], labels[i], memories_[worker]);
     });
     for (const auto& some : labels)
       for (const std::string& label : some) one_label_.add(label);
@@ -485,13 +235,7 @@ class GroupByGroup {
   void finish() {
     if (window_.is_top) add_top();
     pass_on();
-    pass_on_added();
-    std::ranges::sort(cuts_, {}, &Cut::place);
-    for (const Cut& cut : cuts_) survey_.add_face(cut.places);
-    std::vector<SurfaceFace> faces;
-    for (const Cut& cut : cuts_) faces.push_back(cut.face);
-    sink_.add_faces(faces);
-    sink_.end({sizes_.plain + sizes_.upper, sizes_.lower_doubled + sizes_.doubled});
+    passing_on_.finish();
   }
 
   void add_top() {
@@ -504,135 +248,16 @@ class GroupByGroup {
     sewing_.finish(options_.threads);
   }
 
-  /// What sewing has added to the layers that are passed on.
-  void pass_on_added() {
-    const Sewing::Added all{static_cast<std::uint32_t>(sewing_.doubled().size()),
-                            static_cast<std::uint32_t>(sewing_.midpoints().size()),
-                            static_cast<std::uint32_t>(sewing_.cut_faces().size())};
-    const bool has_upper = layer_bound_ != Origin::none;
-    if (first_layer_ > 0) note_lower_seam();
-    upper_ = has_upper ? sewing_.added_before(layer_bound_) : all;
-    const Sewing::Added above = has_upper ? sewing_.added_before(layer_bound_ + 1) : all;
-    sizes_.doubled = upper_.doubled - lower_.doubled;
-    sizes_.midpoints = upper_.midpoints - lower_.midpoints;
-    sizes_.upper_midpoints = above.midpoints - upper_.midpoints;
-    sizes_.upper_seam = above.cuts - upper_.cuts;
-    pass_on_vertices(sewing_.doubled().first(upper_.doubled).subspan(first_doubled()));
-    pass_on_vertices(sewing_.midpoints().first(above.midpoints).subspan(lower_.midpoints));
-    for (const Cut& cut : cuts_)
-      ++(is_in_lower_seam(cut)   ? sizes_.lower_cuts
-         : is_in_upper_seam(cut) ? sizes_.upper_cuts
-                                 : sizes_.cuts);
-  }
-
-  void note_lower_seam() {
-    lower_ = sewing_.added_before(first_layer_);
-    lower_seam_end_ = sewing_.added_before(first_layer_ + 1).cuts;
-    sizes_.lower_doubled = lower_.doubled - sewing_.added_before(first_layer_ - 1).doubled;
-    sizes_.lower_seam = lower_seam_end_ - lower_.cuts;
-  }
-
-  [[nodiscard]] std::uint32_t first_doubled() const {
-    return lower_.doubled - sizes_.lower_doubled;
-  }
-
   /// Passes on the layers that have become final, and forgets what nobody needs any more.
   void pass_on() {
-    for (; passed_bound_ < sewing_.final_bound(); ++passed_bound_) {
-      if (passed_bound_ < first_layer_ || passed_bound_ >= layer_bound_) continue;
-      if (passed_bound_ == first_layer_) begin_passing_on();
-      pass_on_vertices_of(passed_bound_);
-      pass_on_faces_of(passed_bound_);
-      survey_.connect(sewing_, passed_bound_, first_layer_, layer_bound_);
-      if (passed_bound_ + 1 == layer_bound_) pass_on_upper_slice();
-    }
-    sewing_.drop_below(passed_bound_);
+    passing_on_.pass_on();
     // Layers begin with the cap; a slab looks at the slice before its own.
-    const std::size_t sewn = passed_bound_ - std::min<std::size_t>(caps_below_, passed_bound_);
+    const std::size_t passed = passing_on_.passed_bound();
+    const std::size_t sewn = passed - std::min<std::size_t>(caps_below_, passed);
     const std::size_t needed = std::min(sewn, slab_bound_ - std::min<std::size_t>(1, slab_bound_));
     regions_.drop_below(needed);
     used_.erase(used_.begin(), used_.lower_bound(needed));
     for (; options_.smooth && first_shape_ < needed; ++first_shape_) shapes_.pop_front();
-  }
-
-  /// Knows from here on how corners are numbered.
-  void begin_passing_on() {
-    first_vertex_ = sewing_.first_vertex(first_layer_);
-    if (first_layer_ > 0) note_lower_seam();
-  }
-
-  /// What the part above begins with.
-  void pass_on_upper_slice() {
-    vertices_.clear();
-    add_slice(*sewing_.layer(layer_bound_).lower);
-    sizes_.upper = static_cast<std::uint32_t>(vertices_.size());
-    pass_on_vertices(vertices_);
-  }
-
-  void pass_on_vertices(std::span<const SurfaceVertex> vertices) {
-    survey_.add_vertices(vertices);
-    sink_.add_vertices(vertices);
-  }
-
-  /// Those of the slice below a layer and inside it; above the last layer also those there.
-  void pass_on_vertices_of(std::uint32_t number) {
-    const Layer& layer = sewing_.layer(number);
-    vertices_.clear();
-    add_slice(*layer.lower);
-    for (const InnerVertex& inner : layer.tiles.inner)
-      vertices_.push_back({inner.place, {inner.kind, layer.slice, Origin::none, Origin::none}});
-    const bool is_last =
-        sewing_.final_bound() == sewing_.layer_bound() && number + 1 == sewing_.layer_bound();
-    if (is_last) add_slice(*layer.upper);
-    sizes_.plain += static_cast<std::uint32_t>(vertices_.size());
-    pass_on_vertices(vertices_);
-  }
-
-  void add_slice(const Region& region) {
-    for (std::size_t i = 0; i < region.points.size(); ++i)
-      vertices_.push_back({{region.points[i].x, region.points[i].y, region.z}, region.origins[i]});
-  }
-
-  void pass_on_faces_of(std::uint32_t number) {
-    faces_.clear();
-    for (std::uint32_t f = 0; f < sewing_.face_count(number); ++f) {
-      faces_.push_back(face({number, 3 * f}));
-      survey_.add_face(places({number, 3 * f}));
-    }
-    sink_.add_faces(faces_);
-    sizes_.faces += faces_.size();
-    const auto cuts = sewing_.cuts_of(number);
-    for (std::uint32_t i = 0; i < cuts.size(); ++i) {
-      const HalfEdge first{number, 3 * (sewing_.face_count(number) + i)};
-      cuts_.push_back({cuts[i], face(first), places(first)});
-    }
-  }
-
-  /// The corners of a face as an OpenMesh mesh lists them: the first one last.
-  [[nodiscard]] static std::array<HalfEdge, 3> corners(HalfEdge first) {
-    const HalfEdge second = Sewing::next(first);
-    return {second, Sewing::next(second), first};
-  }
-
-  [[nodiscard]] SurfaceFace face(HalfEdge first) const {
-    const auto [a, b, c] = corners(first);
-    const Layer& layer = sewing_.layer(first.layer);
-    return {{passed(sewing_.vertex(a)), passed(sewing_.vertex(b)), passed(sewing_.vertex(c))},
-            layer.tiles.tiles[first.face()].kind,
-            layer.slab};
-  }
-
-  /// The number of a vertex among those that are passed on.
-  [[nodiscard]] std::uint32_t passed(std::uint32_t vertex) const {
-    if ((vertex & VertexNumbers::doubled_mark) == 0) return vertex - first_vertex_;
-    const bool is_midpoint =
-        (vertex & VertexNumbers::midpoint_mark) == VertexNumbers::midpoint_mark;
-    return vertex - (is_midpoint ? lower_.midpoints : first_doubled());
-  }
-
-  [[nodiscard]] std::array<Vec3, 3> places(HalfEdge first) const {
-    const auto [a, b, c] = corners(first);
-    return {sewing_.place(a), sewing_.place(b), sewing_.place(c)};
   }
 
   /// Those of slabs that are passed on.
@@ -643,27 +268,12 @@ class GroupByGroup {
                    reports_.begin() + static_cast<std::ptrdiff_t>(window_.first_slab));
   }
 
-  /// A face that a midpoint cut off: it comes behind all others.
-  struct Cut {
-    std::uint32_t place;  // among all that are worked on
-    SurfaceFace face;
-    std::array<Vec3, 3> places;
-  };
-
-  [[nodiscard]] bool is_in_lower_seam(const Cut& cut) const { return cut.place < lower_seam_end_; }
-  [[nodiscard]] bool is_in_upper_seam(const Cut& cut) const {
-    return layer_bound_ != Origin::none && cut.place >= upper_.cuts;
-  }
-
   const SliceSource& source_;
   const Options& options_;
-  SurfaceSink& sink_;
   Window window_;
-  std::size_t caps_below_;     // layers below the first slab
-  std::uint32_t first_layer_;  // of those that are passed on
-  std::uint32_t layer_bound_;  // and behind the last; none: all up to the top
+  std::size_t caps_below_;  // layers below the first slab
   OneLabel one_label_;
-  Regions regions_;
+  RegionQueue regions_;
   std::deque<SliceShape> shapes_;  // of the regions from first_shape_ on, if they are asked for
   std::size_t first_shape_ = 0;
   Linking linking_;
@@ -672,14 +282,7 @@ class GroupByGroup {
   std::size_t matched_bound_ = 0;  // have their ends matched,
   std::size_t slab_bound_ = 0;     // are made
   Sewing sewing_;
-  std::uint32_t passed_bound_ = 0;  // layers below are passed on
-  Survey survey_;
-  std::vector<Cut> cuts_;
-  PartSizes sizes_;                   // so far
-  std::uint32_t first_vertex_ = 0;    // that is passed on
-  Sewing::Added lower_;               // before the first layer that is passed on
-  Sewing::Added upper_;               // before the one above the last
-  std::uint32_t lower_seam_end_ = 0;  // cuts made where the first layer is sewn on
+  PassingOn passing_on_;
   std::vector<Defect> repairs_;
   std::map<std::size_t, UsedPoints> used_;  // of the regions that have lines
   std::vector<Defect> unused_;              // lines
@@ -689,13 +292,7 @@ class GroupByGroup {
   // Memory that is used again.
   std::vector<cdt::Triangulation> memories_;
   std::vector<TileWorkspace> workspaces_;
-  std::vector<SurfaceVertex> vertices_;
-  std::vector<SurfaceFace> faces_;
 };
-
-}  // namespace
-
-namespace {
 
 void require_out_of_core(const Options& options) {
   if (options.simplify || !options.links.empty())

@@ -29,7 +29,8 @@ link          reconstruct/link/*             registration
 sew           reconstruct/sew/*              tile
 shape         reconstruct/shape/*            link sew
 live          reconstruct/live/*             shape
-reconstruct   reconstruct/{reconstruct,fair,out_of_core,reconstruction,world}                live
+out-of-core   reconstruct/out_of_core/*      shape
+reconstruct   reconstruct/{reconstruct,fair,out_of_core,reconstruction,world}                live out-of-core
 
 io-values     io/{unit,version}              reconstruct paths fields
 bytes         io/bytes/*                     io-values

@@ -29,6 +29,7 @@
 #include "reconstruct/number_text.h"
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/reconstruct.h"
+#include "reconstruct/usable.h"
 #include "reconstruct/world.h"
 
 namespace loft::app {

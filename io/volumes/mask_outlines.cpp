@@ -9,7 +9,7 @@ namespace loft::io {
 
 namespace {
 
-constexpr std::uint32_t none = ~std::uint32_t{0};
+constexpr std::uint32_t none = SparseTable::none;
 /// Beside the next crossing: the corner between is cut off, as its pixels meet others there.
 constexpr std::uint32_t is_cut = std::uint32_t{1} << 31;
 
@@ -44,7 +44,7 @@ MaskOutlines::MaskOutlines(std::uint32_t columns, std::uint32_t rows, Outline ou
       width_(std::size_t{columns} + 2),
       outline_(outline),
       labels_(width_ * (std::size_t{rows} + 2)),
-      next_(4 * labels_.size(), none) {}
+      next_(4 * labels_.size()) {}
 
 std::span<std::uint32_t> MaskOutlines::row(std::uint32_t row) {
   return std::span(labels_).subspan((std::size_t{row} + 1) * width_ + 1, columns_);
@@ -55,6 +55,7 @@ std::vector<PixelOutline> MaskOutlines::trace(std::span<const double> values,
   values_ = values;
   level_ = level;
   starts_.clear();
+  next_.clear();
   for (std::size_t y = 0; y <= rows_; ++y) {
     const std::uint32_t* const low = &labels_[y * width_];
     const std::uint32_t* const high = low + width_;
@@ -93,13 +94,13 @@ void MaskOutlines::cross_cell(std::size_t place) {
     std::size_t last = first;
     while (corners[(last + 1) % 4] == label) last = (last + 1) % 4;
     if (cut && first % 2 != *cut && corners[(first + 2) % 4] == label) {  // goes through
-      next_[leave[first]] = enter[(first + 1) % 4];
+      next_.set(leave[first], enter[(first + 1) % 4]);
       starts_.push_back({leave[first], label});
       continue;
     }
     const bool meets = last == first && corners[(first + 2) % 4] == label;
-    next_[leave[last]] =
-        enter[(first + 3) % 4] | (meets && outline_ == Outline::edges ? is_cut : 0);
+    next_.set(leave[last],
+              enter[(first + 3) % 4] | (meets && outline_ == Outline::edges ? is_cut : 0));
     starts_.push_back({leave[last], label});
   }
 }
@@ -158,7 +159,7 @@ std::vector<MaskOutlines::Crossing> MaskOutlines::take_loop(Crossing start) {
   std::vector<Crossing> loop;
   for (Crossing crossing = start; next_[crossing] != none;) {
     const Crossing next = next_[crossing];
-    next_[crossing] = none;
+    next_.set(crossing, none);
     loop.push_back(crossing | (next & is_cut));
     crossing = next & ~is_cut;
   }

@@ -9,6 +9,7 @@
 
 #include "cdt/point.h"
 #include "io/stacks/read_options.h"
+#include "io/volumes/sparse_table.h"
 #include "io/volumes/square_outlines.h"
 
 namespace loft::io {
@@ -64,7 +65,7 @@ class MaskOutlines {
   std::size_t width_;  ///< with a border of pixels outside all around
   Outline outline_;
   std::vector<std::uint32_t> labels_;
-  std::vector<Crossing> next_;  ///< on its outline, by crossing, and whether the corner is cut
+  SparseTable next_;  ///< on its outline, by crossing, and whether the corner is cut
   std::vector<Start> starts_;
   std::span<const double> values_;
   std::optional<double> level_;

@@ -40,6 +40,72 @@ double cost_of(const Stretch& a, const Stretch& b, double direction_weight) {
   return x * x + y * y + direction_weight * (1 - cosine);
 }
 
+/// Pairs of a row, and what it costs at least to come to them.
+struct Row {
+  Range range;
+  const double* costs;
+  const double* least;
+
+  [[nodiscard]] bool has(std::size_t column) const {
+    return column >= range.first && column < range.last;
+  }
+};
+
+/// From a row to the one after it.
+void go_on(const PairGrid& grid, std::size_t row_index, const Row& from, const Row& to,
+           double* least) {
+  const auto [first, last] = to.range;
+  const Range before = from.range;
+  const double* const column_steps = grid.column_steps(first);
+  const double row_step = grid.row_step(row_index);
+  for (std::size_t j = std::max(first, before.first); j < std::min(last, before.last); ++j)
+    least[j - first] = from.least[j - before.first] +
+                       grid.step_one(to.costs[j - first], from.costs[j - before.first], row_step);
+  for (std::size_t j = std::max(first, before.first + 1); j < std::min(last, before.last + 1);
+       ++j) {
+    const std::size_t k = j - 1 - before.first;
+    const double both = from.least[k] + grid.step_both(to.costs[j - first], from.costs[k], row_step,
+                                                       column_steps[j - first]);
+    least[j - first] = std::min(least[j - first], both);
+  }
+}
+
+/// Along a row.
+void go_along(const PairGrid& grid, const Row& row, double* least) {
+  const double* const steps = grid.column_steps(row.range.first);
+  for (std::size_t k = 1; k < row.range.last - row.range.first; ++k)
+    least[k] =
+        std::min(least[k], least[k - 1] + grid.step_one(row.costs[k], row.costs[k - 1], steps[k]));
+}
+
+/// From a pair of a row back along the least course, through columns from `first` on, into the row
+/// above: its column there.
+std::size_t go_back(const PairGrid& grid, std::size_t row_index, const Row& above, const Row& row,
+                    std::size_t column, std::size_t& first) {
+  const double row_step = grid.row_step(row_index);
+  const double* const column_steps = grid.column_steps(row.range.first);
+  for (std::size_t j = column;; --j) {
+    const double here = row.costs[j - row.range.first];
+    const double column_step = column_steps[j - row.range.first];
+    const auto from = [&](const Row& other, std::size_t k, const auto& step) {
+      const std::size_t place = k - other.range.first;
+      return other.has(k) ? other.least[place] + step(other.costs[place]) : infinity;
+    };
+    const double both = from(above, j - 1, [&](double there) {
+      return grid.step_both(here, there, row_step, column_step);
+    });
+    const double lower =
+        from(above, j, [&](double there) { return grid.step_one(here, there, row_step); });
+    const double upper =
+        from(row, j - 1, [&](double there) { return grid.step_one(here, there, column_step); });
+    first = j;
+    if (std::min(both, lower) <= upper) return both <= lower ? j - 1 : j;
+  }
+}
+
+/// Some of the rows are looked at whether they can be left.
+constexpr std::size_t rows_of_look = 8;
+
 }  // namespace
 
 PairGrid::PairGrid(std::span<const Stretch> lower, std::span<const Stretch> upper,
@@ -111,6 +177,48 @@ CostToCome::CostToCome(const PairGrid& grid) {
     of_columns_[j] = of_columns_[j + 1] + step(least_of_columns, j, *grid.column_steps(j + 1));
 }
 
+namespace {
+
+/// What courses that have come to some columns cost at least, but for the rows, until `end`.
+double least_from(const double* come, Range range, std::size_t end, const CostToCome& to_come) {
+  double least = infinity;
+  for (std::size_t j = range.first; j < range.last; ++j)
+    least = std::min(least, come[j - range.first] + to_come.of_columns(j, end));
+  return least;
+}
+
+}  // namespace
+
+bool may_cost_less(const PairGrid& grid, Range starts, std::span<const Range> ranges,
+                   const CostToCome& to_come, double most) {
+  const Range ends{starts.first + grid.columns(), starts.last + grid.columns()};
+  std::vector<double> memory;
+  std::vector<double> memory_before;
+  std::vector<double> least;
+  std::vector<double> least_before;
+  Row before{};
+  for (std::size_t i = 0; i < ranges.size(); ++i) {
+    const Range range{std::max(ranges[i].first, starts.first), std::min(ranges[i].last, ends.last)};
+    const std::size_t count = range.last - range.first;
+    cdt::spend(1 + count / pairs_of_step);
+    least.assign(count, infinity);
+    const Row row{range, grid.costs(i, range, memory), least.data()};
+    if (i == 0)
+      std::fill_n(least.begin(), starts.last - starts.first, 0.0);
+    else
+      go_on(grid, i, before, row, least.data());
+    go_along(grid, row, least.data());
+    if (i % rows_of_look == 0 &&
+        !(least_from(row.least, range, ends.first, to_come) + to_come.of_rows(i) < most))
+      return false;
+    before = row;
+    std::swap(memory, memory_before);
+    std::swap(least, least_before);
+  }
+  const double* const end = before.least - before.range.first;
+  return *std::min_element(end + ends.first, end + ends.last) < most;
+}
+
 Courses::Courses(const PairGrid& grid, std::size_t first_row, std::vector<Range> ranges)
     : grid_(grid), first_row_(first_row), ranges_(std::move(ranges)), starts_{0} {
   fill_forward(nullptr, infinity);
@@ -128,56 +236,31 @@ void Courses::fill_forward(const CostToCome* to_come, double most) {
   forward_.reserve(count);
   std::vector<double> memory;
   std::vector<double> memory_before;
-  const double* costs_before = nullptr;
+  Row before{};
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
     const Range range = ranges_[i];
     cdt::spend(1 + (range.last - range.first) / pairs_of_step);
     starts_.push_back(starts_.back() + range.last - range.first);
     forward_.resize(starts_.back(), infinity);
-    const double* const costs = grid_.costs(first_row_ + i, range, memory);
-    fill_row(i, costs, costs_before);
+    double* const least = forward_.data() + starts_[i];
+    const Row row{range, grid_.costs(first_row_ + i, range, memory), least};
+    if (i == 0)
+      least[0] = 0;
+    else
+      go_on(grid_, first_row_ + i, before, row, least);
+    go_along(grid_, row, least);
     const bool is_early = i < ranges_.size() / early;
     is_found_ = to_come == nullptr || !is_early || least_through(i, *to_come) < most;
     if (!is_found_) return;
-    costs_before = costs;
+    before = row;
     std::swap(memory, memory_before);
   }
 }
 
-/// From the row before, then along the row.
-void Courses::fill_row(std::size_t i, const double* costs, const double* costs_before) {
-  const auto [first, last] = ranges_[i];
-  double* const row = forward_.data() + starts_[i];
-  const double* const column_steps = grid_.column_steps(first);
-  if (i == 0) {
-    row[0] = 0;
-  } else {
-    const Range before = ranges_[i - 1];
-    const double* const above = forward_.data() + starts_[i - 1];
-    const double row_step = grid_.row_step(first_row_ + i);
-    for (std::size_t j = std::max(first, before.first); j < std::min(last, before.last); ++j)
-      row[j - first] = above[j - before.first] +
-                       grid_.step_one(costs[j - first], costs_before[j - before.first], row_step);
-    for (std::size_t j = std::max(first, before.first + 1); j < std::min(last, before.last + 1);
-         ++j) {
-      const std::size_t k = j - 1 - before.first;
-      const double both = above[k] + grid_.step_both(costs[j - first], costs_before[k], row_step,
-                                                     column_steps[j - first]);
-      row[j - first] = std::min(row[j - first], both);
-    }
-  }
-  for (std::size_t k = 1; k < last - first; ++k)
-    row[k] = std::min(row[k], row[k - 1] + grid_.step_one(costs[k], costs[k - 1], column_steps[k]));
-}
-
 /// What a course through a row costs at least.
 double Courses::least_through(std::size_t i, const CostToCome& to_come) const {
-  const std::size_t end = ranges_.back().last - 1;
-  double least = infinity;
-  for (std::size_t j = ranges_[i].first; j < ranges_[i].last; ++j)
-    least =
-        std::min(least, forward_[starts_[i] + j - ranges_[i].first] + to_come.of_columns(j, end));
-  return least + to_come.of_rows(i);
+  return least_from(forward_.data() + starts_[i], ranges_[i], ranges_.back().last - 1, to_come) +
+         to_come.of_rows(i);
 }
 
 std::vector<double> Courses::fill_backward() const {
@@ -216,37 +299,24 @@ std::vector<double> Courses::fill_backward() const {
   return backward;
 }
 
-double Courses::at(std::size_t i, std::size_t column) const {
-  const Range range = ranges_[i];
-  if (column < range.first || column >= range.last) return infinity;
-  return forward_[starts_[i] + column - range.first];
-}
-
 std::vector<Range> Courses::course() const {
   std::vector<Range> course(ranges_.size());
-  std::size_t i = ranges_.size() - 1;
-  std::size_t j = ranges_.back().last - 1;
-  course[i] = {j, j + 1};
-  while (i > 0 || j > ranges_[0].first) {
-    const double here = grid_.cost(first_row_ + i, j);
-    const double row_step = grid_.row_step(first_row_ + i);
-    const double column_step = *grid_.column_steps(j);
-    double both = infinity;
-    double lower = infinity;
-    double upper = infinity;
-    if (i > 0 && j > 0)
-      both = at(i - 1, j - 1) +
-             grid_.step_both(here, grid_.cost(first_row_ + i - 1, j - 1), row_step, column_step);
-    if (i > 0)
-      lower = at(i - 1, j) + grid_.step_one(here, grid_.cost(first_row_ + i - 1, j), row_step);
-    if (j > ranges_[i].first)
-      upper = at(i, j - 1) + grid_.step_one(here, grid_.cost(first_row_ + i, j - 1), column_step);
-    const bool is_up = std::min(both, lower) <= upper;
-    if (!is_up || both <= lower) --j;
-    if (is_up) --i;
-    if (is_up) course[i] = {j, j + 1};
-    course[i].first = j;
+  std::vector<double> memory;
+  std::vector<double> memory_above;
+  const auto row_at = [&](std::size_t i, std::vector<double>& where) {
+    return Row{ranges_[i], grid_.costs(first_row_ + i, ranges_[i], where),
+               forward_.data() + starts_[i]};
+  };
+  std::size_t column = ranges_.back().last - 1;
+  Row row = row_at(ranges_.size() - 1, memory);
+  for (std::size_t i = ranges_.size() - 1; i > 0; --i) {
+    const Row above = row_at(i - 1, memory_above);
+    course[i].last = column + 1;
+    column = go_back(grid_, first_row_ + i, above, row, column, course[i].first);
+    row = above;
+    std::swap(memory, memory_above);
   }
+  course[0] = {ranges_[0].first, column + 1};
   return course;
 }
 

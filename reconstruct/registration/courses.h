@@ -80,6 +80,12 @@ class CostToCome {
   std::vector<double> of_columns_;  // of two rounds
 };
 
+/// False if no course costs less than `most` of those that start in some columns of row 0, no more
+/// than there are, and stay in given ranges. A lower bound (as if each could end where any other
+/// does), that of one column is exact. Cost: that of the pairs in the ranges, or of some of them.
+[[nodiscard]] bool may_cost_less(const PairGrid& grid, Range starts, std::span<const Range> ranges,
+                                 const CostToCome& to_come, double most);
+
 /// All courses once round both loops, from a pair to the same one a round later, that stay in given
 /// ranges: what the least costs, and through which pairs it goes.
 class Courses {
@@ -109,11 +115,9 @@ class Courses {
   }
 
  private:
-  void fill_row(std::size_t i, const double* costs, const double* costs_before);
   void fill_forward(const CostToCome* to_come, double most);
   [[nodiscard]] double least_through(std::size_t i, const CostToCome& to_come) const;
   [[nodiscard]] std::vector<double> fill_backward() const;
-  [[nodiscard]] double at(std::size_t i, std::size_t column) const;
 
   const PairGrid& grid_;
   std::size_t first_row_;

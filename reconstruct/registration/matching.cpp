@@ -142,6 +142,9 @@ class LeastCourse {
     const std::size_t middle = from + (to - from) / 2;
     std::vector<Range> between;
     for (std::size_t i = 0; i < low.size(); ++i) between.push_back({low[i].first, high[i].last});
+    if (to - from > 2 &&
+        !may_cost_less(grid_, {from + 1, to}, between, to_come_, (1 - rounding) * least_))
+      return;
     const auto found = course(middle, std::move(between));
     search(from, middle, low, found.value_or(high));
     search(middle, to, found.value_or(low), high);
@@ -155,14 +158,20 @@ class LeastCourse {
 };
 
 /// The least courses in a band through a pair of another one, which lies in it but for whole
-/// rounds.
+/// rounds: through that of all rounds that costs least, as a band may be wider than a round.
 Courses courses_through(const PairGrid& grid, const Band& band, const Band& other,
                         std::size_t row) {
+  const std::size_t columns = grid.columns();
   const Range range = other[row];
-  std::size_t column = range.first + (range.last - 1 - range.first) / 2;
-  while (column >= band[row].last) column -= grid.columns();
-  while (column < band[row].first) column += grid.columns();
-  return {grid, row, band.round(row, column)};
+  const std::size_t middle = range.first + (range.last - 1 - range.first) / 2;
+  const std::size_t first = band[row].first;
+  std::size_t column = first + (middle % columns + columns - first % columns) % columns;
+  std::optional<Courses> best(std::in_place, grid, row, band.round(row, column));
+  while ((column += columns) < band[row].last) {
+    Courses more(grid, row, band.round(row, column));
+    if (more.least() < best->least()) best.emplace(std::move(more));
+  }
+  return std::move(*best);
 }
 
 /// The least course in a band: through a pair of that which is the least through a pair far away.
@@ -247,9 +256,9 @@ std::vector<Match> match_outlines(std::span<const Stretch> lower, std::span<cons
   std::size_t column_length = run_length(upper.size());
   std::vector<Stretch> below = runs(lower, row_length);
   std::vector<Stretch> above = runs(upper, column_length);
-  const auto grid = [&] { return PairGrid(below, above, direction_weight, pace_weight); };
-  const PairGrid coarse = grid();
-  Band course = LeastCourse(coarse).find();
+  std::optional<PairGrid> grid;
+  grid.emplace(below, above, direction_weight, pace_weight);
+  Band course = LeastCourse(*grid).find();
   while (row_length > 1 || column_length > 1) {
     const std::size_t run_columns = above.size();
     const std::size_t rows_of_run = std::min(row_length, refinement);
@@ -258,11 +267,11 @@ std::vector<Match> match_outlines(std::span<const Stretch> lower, std::span<cons
     column_length /= columns_of_run;
     below = runs(lower, row_length);
     above = runs(upper, column_length);
-    const PairGrid finer = grid();
+    grid.emplace(below, above, direction_weight, pace_weight);
     course =
-        settled(finer, refined(course, run_columns, finer, rows_of_run, columns_of_run).widened());
+        settled(*grid, refined(course, run_columns, *grid, rows_of_run, columns_of_run).widened());
   }
-  return least_pairs(grid(), course);
+  return least_pairs(*grid, course);
 }
 
 }  // namespace loft

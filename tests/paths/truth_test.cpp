@@ -93,8 +93,9 @@ TEST(PathsSoak, ShortestPathsAreThoseOfTheVisibilityGraph) {
     ASSERT_NO_FATAL_FAILURE(expect_right_in_scene(seed));
 }
 
-/// Moves obstacles and walls about, one at a time, and compares with what a fresh build finds.
-void expect_paths_as_fresh(std::uint64_t seed, std::size_t moves) {
+/// Moves obstacles and walls about, one at a time, and compares with what a fresh build finds, each
+/// time after so many moves.
+void expect_paths_as_fresh(std::uint64_t seed, std::size_t moves, std::size_t every) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   SceneMaker maker(seed, all_grounds[seed % all_grounds.size()]);
   Scene scene = maker.scene(20 + maker.index(30), maker.index(12));
@@ -109,10 +110,11 @@ void expect_paths_as_fresh(std::uint64_t seed, std::size_t moves) {
     Ring& ring = is_obstacle ? scene.obstacles[shape] : scene.walls[shape - scene.obstacles.size()];
     ring = is_obstacle ? maker.obstacle(scene) : maker.wall(scene);
     setting.move(shape, ring);
+    if ((move + 1) % every != 0) continue;
     const Setting fresh(scene);
     if (!setting.space().mesh().snaps().empty() || !fresh.space().mesh().snaps().empty()) continue;
     // So many now and then that the workspace learns where dead ends are.
-    const int queries = move % 20 == 19 ? 100 : 4;
+    const int queries = (move + 1) / every % 20 == 0 ? 100 : 4;
     for (int i = 0; i < queries; ++i) {
       const Query query = maker.query(scene);
       workspace.find(setting.space(), query, path);
@@ -130,7 +132,15 @@ TEST(PathsSoak, PathsAfterMovesAreThoseOfAFreshBuild) {
   const std::size_t moves = soak_or("LOFT_SOAK_MOVES", 300);
   constexpr std::size_t runs = 2 * all_grounds.size();
   for (std::uint64_t seed = 0; seed < runs; ++seed)
-    ASSERT_NO_FATAL_FAILURE(expect_paths_as_fresh(seed, moves / runs));
+    ASSERT_NO_FATAL_FAILURE(expect_paths_as_fresh(seed, moves / runs, 1));
+}
+
+/// LOFT_SOAK_MANY_MOVES for the long run, of 1,000,000, compared every hundred.
+TEST(PathsSoak, PathsAfterManyMovesAreThoseOfAFreshBuild) {
+  const std::size_t moves = soak_or("LOFT_SOAK_MANY_MOVES", 20'000);
+  constexpr std::size_t runs = 2 * all_grounds.size();
+  for (std::uint64_t seed = 0; seed < runs; ++seed)
+    ASSERT_NO_FATAL_FAILURE(expect_paths_as_fresh(100 + seed, moves / runs, 100));
 }
 
 }  // namespace

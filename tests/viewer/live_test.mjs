@@ -261,7 +261,12 @@ async function measure(what, from, to) {
   const b = await pixels(to);
   await mouse.move(...a);
   await mouse.down();
-  await viewer.page.evaluate(() => { globalThis.live.delays.length = 0; });
+  await viewer.page.evaluate(() => {
+    globalThis.live.delays.length = 0;
+    globalThis.frames = [];
+    const count = (now) => { if (globalThis.frames) { globalThis.frames.push(now); requestAnimationFrame(count); } };
+    requestAnimationFrame(count);
+  });
   const begin = performance.now();
   for (let i = 1; i <= 120; ++i) {
     const part = (1 - Math.cos(i / 120 * 4 * Math.PI)) / 2;
@@ -269,17 +274,22 @@ async function measure(what, from, to) {
     await viewer.page.waitForTimeout(8);
   }
   const seconds = (performance.now() - begin) / 1000;
+  const between = await viewer.page.evaluate(() => {
+    const gaps = globalThis.frames.slice(1).map((at, i) => at - globalThis.frames[i]).sort((a, b) => a - b);
+    globalThis.frames = undefined;
+    return gaps[gaps.length >> 1];
+  });
   await mouse.up();
   await settle();
   const delays = await viewer.page.evaluate(() => globalThis.live.delays);
   delays.sort((x, y) => x - y);
   const at = (part) => delays[Math.min(delays.length - 1, Math.floor(part * delays.length))];
   console.log(`${what}: ${delays.length} edits in ${seconds.toFixed(1)} s; edit to picture median ${at(0.5).toFixed(1)} ms, ` +
-              `95% ${at(0.95).toFixed(1)} ms; last edit ${await viewer.text('cost')}, ${await viewer.page.locator('#made').innerText()}`);
+              `95% ${at(0.95).toFixed(1)} ms; ${between.toFixed(1)} ms from frame to frame; last edit ${await viewer.text('cost')}, ${await viewer.page.locator('#made').innerText()}`);
   return at(0.5);
 }
 
-// Frames a second while the view is moved.
+// Frames a second while all of the view is moved, which draws everything anew.
 async function framesPerSecond() {
   return viewer.page.evaluate(async () => {
     const { board } = globalThis.live;

@@ -5,8 +5,11 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
+#include <random>
 #include <set>
 
+#include "io/volumes/sparse_table.h"
 #include "reconstruct/defect.h"
 #include "tests/io/shapes.h"
 #include "tests/io/volumes/masks.h"
@@ -285,6 +288,26 @@ TEST(Outlines, RefuseWhatIsNoVolume) {
     Volume volume = volume_of(1, 1, {value});
     EXPECT_NE(message_of<InputError>([&] { static_cast<void>(trace(volume)); }).find("--level"),
               std::string::npos);
+  }
+}
+
+TEST(SparseTable, HasTheNumbersThatWereSet) {
+  constexpr std::size_t size = 10'000;
+  SparseTable table(size);
+  std::mt19937 random(20261130);
+  for (int round = 0; round < 3; ++round) {
+    std::map<std::size_t, std::uint32_t> expected;
+    for (int i = 0; i < 300; ++i) {
+      const std::size_t place = random() % size / 40 * 40;
+      const auto number = i % 5 == 0 ? SparseTable::none : static_cast<std::uint32_t>(i);
+      table.set(place, number);
+      expected[place] = number;
+    }
+    for (std::size_t place = 0; place < size; ++place) {
+      const auto found = expected.find(place);
+      ASSERT_EQ(table[place], found == expected.end() ? SparseTable::none : found->second);
+    }
+    table.clear();
   }
 }
 

@@ -11,14 +11,17 @@
 #include <limits>
 #include <numbers>
 #include <random>
+#include <span>
 #include <vector>
 
 #include "cdt/check.h"
+#include "cdt/effort.h"
 #include "mesh/measure.h"
 #include "mesh/vec3.h"
 #include "reconstruct/clean/cleaning.h"
 #include "reconstruct/reconstruct.h"
 #include "reconstruct/reconstruction.h"
+#include "reconstruct/registration/courses.h"
 #include "reconstruct/registration/displacement.h"
 #include "reconstruct/registration/matching.h"
 #include "reconstruct/registration/nearest.h"
@@ -372,6 +375,67 @@ TEST(Matching, FindsTheSameLoopAgainWhereverItBegins) {
     for (const Match match : matches)
       EXPECT_EQ(match.lower, (match.upper + static_cast<std::size_t>(third)) % loop.size());
   }
+}
+
+/// Of pairs in their order once round both loops: what that way costs.
+double cost_of_way(const PairGrid& grid, std::span<const Match> pairs) {
+  double sum = 0;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Match from = pairs[i];
+    const Match to = pairs[(i + 1) % pairs.size()];
+    const double before = grid.cost(from.lower, from.upper);
+    const double after = grid.cost(to.lower, to.upper);
+    const double row_step = grid.row_step(to.lower);
+    const double column_step = *grid.column_steps(to.upper);
+    if (from.lower == to.lower)
+      sum += grid.step_one(before, after, column_step);
+    else if (from.upper == to.upper)
+      sum += grid.step_one(before, after, row_step);
+    else
+      sum += grid.step_both(before, after, row_step, column_step);
+  }
+  return sum;
+}
+
+TEST(Matching, FindsTheLeastOfAllWaysRound) {
+  constexpr std::uint64_t seed = 20261130;
+  std::mt19937_64 random(seed);
+  const auto star = [&](int corners) {
+    std::vector<Point> points;
+    for (int i = 0; i < corners; ++i) {
+      const double angle = 2 * pi * i / corners;
+      const double radius = 1 + static_cast<double>(random() % 1000) / 200;
+      points.push_back({radius * std::cos(angle), radius * std::sin(angle)});
+    }
+    return region_of(points);
+  };
+  for (int round = 0; round < 60; ++round) {
+    const auto lower = stretches_by_edges(star(3 + round % 9), 0, 0.8);
+    const auto upper = stretches_by_edges(star(3 + round % 7), 0, 0.9);
+    const double weight = 1 << round % 8;
+    const PairGrid grid(lower, upper, weight, weight / 8);
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t start = 0; start < upper.size(); ++start) {
+      const std::vector<Range> all(lower.size() + 1, {start, start + upper.size() + 1});
+      least = std::min(least, Courses(grid, 0, all).least());
+    }
+    const std::vector<Match> found = match_outlines(lower, upper, weight, weight / 8);
+    EXPECT_NEAR(cost_of_way(grid, found), least, 1e-8 * least)
+        << "seed " << seed << " round " << round;
+  }
+}
+
+/// Teeth across teeth match badly everywhere: a way round costs about the same wherever it starts,
+/// and yet few of them are gone through to the end.
+TEST(Matching, OfCrossedCombsTakesNoMoreThanSomePassesOverAllPairs) {
+  const std::vector<Point> comb{{0, 0}, {1, 6}, {2, 0},  {3, 6}, {4, 0},
+                                {5, 6}, {6, 0}, {6, -1}, {0, -1}};
+  std::vector<Point> across;
+  for (const Point p : comb) across.push_back({-p.y, p.x});
+  const auto lower = stretches_by_edges(region_of(comb), 0, 0.2);
+  const auto upper = stretches_by_edges(region_of(across), 0, 0.2);
+  cdt::Effort effort(20 * lower.size() * upper.size() / 16);
+  EXPECT_NO_THROW(static_cast<void>(match_outlines(lower, upper, 20, 2.5)));
 }
 
 /// However it is pulled, what comes out is a region still: no loop crosses another one or itself.
