@@ -51,6 +51,7 @@ std::vector<std::pair<std::string, double>> lengths(const Options& options) {
     if (length) result.emplace_back(name, *length);
   };
   add("fair", options.fair);
+  add("smooth_tolerance", options.smooth_tolerance);
   add("max_edge", options.max_edge);
   add("target_edge", options.target_edge);
   add("simplify", options.simplify);

@@ -185,7 +185,8 @@ class GroupByGroup {
       Surroundings around{};
       for (std::size_t k = 0; k < around.size(); ++k)
         if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_[i + k - 1 - first_shape_];
-      tiles = smooth(regions_[i], regions_[i + 1], around, linking_.pieces(i), std::move(tiles));
+      tiles = smooth(regions_[i], regions_[i + 1], around, linking_.pieces(i), std::move(tiles),
+                     options_.smooth_tolerance);
     }
     return refine(regions_[i], regions_[i + 1], std::move(tiles), options_);
   }

@@ -195,17 +195,17 @@ Surroundings surroundings(std::span<const SliceShape> shapes, std::size_t slab) 
   return found;
 }
 
-void smooth_all(const std::vector<Region>& regions, Slabs& slabs, unsigned threads,
+void smooth_all(const std::vector<Region>& regions, Slabs& slabs, const Options& options,
                 const Progress& progress) {
   Reporter reporter(progress, Stage::smooth, regions.size() + slabs.tiles.size());
   std::vector<SliceShape> shapes(regions.size());
-  for_each_index(regions.size(), threads, [&](std::size_t i, unsigned) {
+  for_each_index(regions.size(), options.threads, [&](std::size_t i, unsigned) {
     shapes[i] = SliceShape(regions[i]);
     reporter.add_step();
   });
-  for_each_index(slabs.tiles.size(), threads, [&](std::size_t i, unsigned) {
+  for_each_index(slabs.tiles.size(), options.threads, [&](std::size_t i, unsigned) {
     slabs.tiles[i] = smooth(regions[i], regions[i + 1], surroundings(shapes, i), slabs.pieces[i],
-                            std::move(slabs.tiles[i]));
+                            std::move(slabs.tiles[i]), options.smooth_tolerance);
     reporter.add_step();
   });
 }
@@ -253,7 +253,7 @@ Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean
   std::ranges::stable_sort(repairs, {}, &Defect::z);
   std::vector<SlabReport> reports;
   if (options.reports_slabs) reports = report_slabs(regions, slabs.tiles, slabs.pieces);
-  if (options.smooth) smooth_all(regions, slabs, options.threads, progress);
+  if (options.smooth) smooth_all(regions, slabs, options, progress);
   if (options.max_edge || options.target_edge) refine_all(regions, slabs.tiles, options, progress);
   Reporter sewing(progress, Stage::sew, 1);
   // Made in its place: an OpenMesh mesh cannot be moved, only copied.

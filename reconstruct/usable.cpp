@@ -84,6 +84,7 @@ void require_usable(const Options& options) {
   std::string problems;
   note_length("keyhole_width", options.keyhole_width, problems);
   note_length("fair", options.fair, problems);
+  note_length("smooth_tolerance", options.smooth_tolerance, problems);
   note_length("max_edge", options.max_edge, problems);
   note_length("target_edge", options.target_edge, problems);
   note_length("simplify", options.simplify, problems);

@@ -51,6 +51,7 @@ void set(StreamCommand& command, const std::string& key, const std::string& valu
   if (key == "link")
     choose(options.link, {LinkRule::automatic, LinkRule::overlap, LinkRule::none}, value);
   if (key == "smooth") options.smooth = value == "true";
+  if (key == "smooth_tolerance") set_length(options.smooth_tolerance, value);
   if (key == "unit") command.unit = value;
   if (key == "labels") take_labels(command, value);
   if (key == "keyhole_width") set_length(options.keyhole_width, value);

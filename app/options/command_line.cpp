@@ -587,7 +587,7 @@ CLI::App* add_man(CLI::App& app) {
 /// Notes which of a session's settings the command line names, and what makes no sense in it.
 void look_at_options(const CLI::App& sub, StreamCommand& command) {
   for (const char* setting : {"fill", "keyhole_width", "cap", "link", "max_shift", "smooth",
-                              "tolerance", "unit", "fair"}) {
+                              "smooth_tolerance", "tolerance", "unit", "fair"}) {
     std::string option = std::string("--") + setting;
     std::ranges::replace(option, '_', '-');
     if (sub.count(option) > 0) command.given.insert(setting);

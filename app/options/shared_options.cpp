@@ -136,6 +136,16 @@ void add_slab_options(CLI::App& sub, Options& options) {
   sub.add_flag("--smooth", options.smooth,
                "Bend the surface between the slices as their neighbours suggest; it still passes "
                "through every contour");
+  sub.add_option_function<double>(
+         "--smooth-tolerance",
+         [&options](double distance) {
+           options.smooth = true;
+           options.smooth_tolerance = distance;
+         },
+         "How near triangles come to the smooth surface, in the unit of the input; the larger, the "
+         "fewer there are (default 0: by what the slices tell, 1.4% of their gap). Means --smooth")
+      ->type_name("DISTANCE")
+      ->check(CLI::Validator(complain_of_distance, ""));
 }
 
 void add_triangle_options(CLI::App& sub, Options& options) {

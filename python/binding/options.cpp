@@ -134,7 +134,8 @@ Options options_of(const py::dict& given) {
   options.target_edge = from.number("target_edge");
   options.simplify = from.number("simplify");
   options.max_shift = from.number("max_shift");
-  options.smooth = from.flag("smooth");
+  options.smooth_tolerance = from.number("smooth_tolerance");
+  options.smooth = from.flag("smooth") || options.smooth_tolerance;
   options.reports_slabs = from.flag("slabs");
   options.threads = from.threads();
   from.finish();

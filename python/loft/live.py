@@ -108,11 +108,13 @@ class Reconstruction:
     def __init__(self, *, label: Optional[str] = None, fill: Optional[str] = None,
                  keyhole_width: Optional[float] = None, tolerance: Optional[float] = None,
                  cap: str = "flat", link: str = "auto", max_shift: Optional[float] = None,
-                 smooth: bool = False, max_edge: Optional[float] = None,
+                 smooth: bool = False, smooth_tolerance: Optional[float] = None,
+                 max_edge: Optional[float] = None,
                  target_edge: Optional[float] = None, threads: int = 0, unit: str = "mm") -> None:
         options = {
             "fill": fill, "keyhole_width": keyhole_width, "tolerance": tolerance, "cap": cap,
-            "link": link, "max_shift": max_shift, "smooth": smooth, "max_edge": max_edge,
+            "link": link, "max_shift": max_shift, "smooth": smooth,
+            "smooth_tolerance": smooth_tolerance, "max_edge": max_edge,
             "target_edge": target_edge, "threads": threads}
         self._begin(label, options, unit)
         self._live: Any = _loft.Reconstruction(options, self.label)

@@ -120,7 +120,8 @@ def reconstruct(stack: Any, *, only: Any = None, leave_out: Any = None,
                 tolerance: Optional[float] = None, height_tolerance: Optional[float] = None,
                 fair: Optional[float] = None, cap: str = "flat", link: str = "auto",
                 max_shift: Optional[float] = None, links: Sequence[Link] = (),
-                smooth: bool = False, max_edge: Optional[float] = None,
+                smooth: bool = False, smooth_tolerance: Optional[float] = None,
+                max_edge: Optional[float] = None,
                 target_edge: Optional[float] = None, simplify: Optional[float] = None,
                 slabs: bool = False, threads: int = 0,
                 progress: Union[None, bool, Report] = None) -> Reconstructed:
@@ -134,6 +135,7 @@ def reconstruct(stack: Any, *, only: Any = None, leave_out: Any = None,
     stack: a Stack, the path of a file, or what Stack() takes.
     only, leave_out: labels or patterns of them.
     links: contours to join or keep apart: ((slice, contour), (slice, contour), True or False).
+    smooth_tolerance: means smooth.
     slabs: fill in Surface.slabs.
     threads: 0: as many as the machine has; changes nothing but time.
     progress: True for a bar; or a function of stage and fraction, which may return False to stop
@@ -150,7 +152,8 @@ def reconstruct(stack: Any, *, only: Any = None, leave_out: Any = None,
     options = {
         "fill": fill, "keyhole_width": keyhole_width, "tolerance": tolerance,
         "height_tolerance": height_tolerance, "fair": fair, "cap": cap, "link": link,
-        "max_shift": max_shift, "smooth": smooth, "max_edge": max_edge,
+        "max_shift": max_shift, "smooth": smooth,
+        "smooth_tolerance": smooth_tolerance, "max_edge": max_edge,
         "target_edge": target_edge, "simplify": simplify, "slabs": slabs, "threads": threads}
     made, skipped, settings = run(
         progress,

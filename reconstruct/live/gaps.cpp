@@ -185,7 +185,8 @@ void Gaps::bend(std::size_t i) {
   if (options.smooth) {
     Surroundings around{};
     for (std::size_t k = 0; k < around.size(); ++k) around[k] = shapes[k].get();
-    tiles = std::make_shared<const TileSet>(smooth(lower, upper, around, *pieces, *linked));
+    tiles = std::make_shared<const TileSet>(
+        smooth(lower, upper, around, *pieces, *linked, options.smooth_tolerance));
   }
   if (options.max_edge || options.target_edge)
     tiles = std::make_shared<const TileSet>(refine(lower, upper, *tiles, options));

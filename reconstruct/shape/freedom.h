@@ -43,22 +43,23 @@ class Freedom {
   [[nodiscard]] double of_node(std::uint32_t node, std::uint32_t piece) const {
     return roundness_[node] * of_piece_[piece];
   }
-  [[nodiscard]] double of_edge(std::uint32_t a, std::uint32_t b, std::uint32_t piece) const {
-    return roundness(a, b) * looseness(a, b) * of_piece_[piece];
+  [[nodiscard]] double of_edge(std::uint32_t a, std::uint32_t b, std::uint32_t piece,
+                               double looseness) const {
+    return roundness(a, b) * looseness * of_piece_[piece];
   }
+  /// How little speaks for an edge to be straight. Precondition: the plain tiles have it, or one of
+  /// its nodes was added.
+  [[nodiscard]] double looseness(std::uint32_t a, std::uint32_t b) const;
   /// Gives the next number to a node in the middle of an edge.
-  void add_middle(std::uint32_t a, std::uint32_t b) {
-    const double loose = looseness(a, b);
+  void add_middle(std::uint32_t a, std::uint32_t b, double looseness) {
     roundness_.push_back(roundness(a, b));
-    loose_.push_back(loose);
+    loose_.push_back(looseness);
   }
 
  private:
   [[nodiscard]] double roundness(std::uint32_t a, std::uint32_t b) const {
     return (roundness_[a] + roundness_[b]) / 2;
   }
-  /// How little speaks for an edge to be straight.
-  [[nodiscard]] double looseness(std::uint32_t a, std::uint32_t b) const;
   void find_roundness(std::span<const OutlinePoint> outlines, const TileSet& tiles);
   void find_looseness(const BentSlab& slab, std::span<const OutlinePoint> outlines,
                       const TileSet& tiles);

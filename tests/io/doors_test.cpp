@@ -125,7 +125,8 @@ TEST(Doors, OptionsRefuseLengthsByName) {
        {Door{"keyhole_width", &Options::keyhole_width, true},
         Door{"max_edge", &Options::max_edge, false},
         Door{"target_edge", &Options::target_edge, false},
-        Door{"simplify", &Options::simplify, true}, Door{"max_shift", &Options::max_shift, true}}) {
+        Door{"simplify", &Options::simplify, true}, Door{"max_shift", &Options::max_shift, true},
+        Door{"smooth_tolerance", &Options::smooth_tolerance, true}}) {
     std::vector<double> bad = beyond(admitted::length);
     bad.push_back(-1);
     if (!door.admits_zero) bad.push_back(0);

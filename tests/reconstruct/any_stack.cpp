@@ -59,6 +59,7 @@ class Decoder {
     if (shape == 3) options.simplify = 0;
     if (shape == 4) options.simplify = 0.05;
     if (shape == 5) options.max_shift = 0.3;
+    if (shape == 6) options.smooth_tolerance = 0.01 * unit_;
     return options;
   }
 
@@ -274,7 +275,8 @@ std::string as_words(const AnyStack& any) {
                       std::to_string(static_cast<int>(o.cap)) + " link " +
                       std::to_string(static_cast<int>(o.link)) + (o.smooth ? " smooth" : "") +
                       " max_edge " + length(o.max_edge) + " target_edge " + length(o.target_edge) +
-                      " simplify " + length(o.simplify) + " max_shift " + length(o.max_shift);
+                      " simplify " + length(o.simplify) + " max_shift " + length(o.max_shift) +
+                      " smooth_tolerance " + length(o.smooth_tolerance);
   for (const Slice& slice : any.slices) {
     words += "\n{\"z\":" + exact(slice.z) + ",\"contours\":[";
     for (std::size_t c = 0; c < slice.contours.size(); ++c) {

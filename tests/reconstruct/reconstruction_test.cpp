@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -88,6 +89,13 @@ TEST(Reconstruction, RandomEditsOfAForkGiveWhatTheBatchGives) {
     for (const bool is_smooth : {false, true})
       for (std::uint64_t seed = 1; seed <= 2; ++seed)
         play(pool, {.cap = cap, .smooth = is_smooth}, seed, edit_count(60), 1);
+}
+
+TEST(Reconstruction, RandomEditsOfBentSlabsGiveWhatTheBatchGives) {
+  for (const std::optional<double> tolerance : {std::optional<double>(), {0.02}})
+    for (std::uint64_t seed = 1; seed <= 2; ++seed)
+      play(random_pool(seed, 5, false), {.smooth = true, .smooth_tolerance = tolerance}, seed,
+           edit_count(20), 1);
 }
 
 TEST(Reconstruction, RandomEditsOfCrossingPolygonsGiveWhatTheBatchGives) {

@@ -44,8 +44,9 @@ TEST(Ranges, JoinedAreTheWhole) {
   const Folder folder;
   static_cast<void>(folder.write("in.ndjson", wanderers()));
   std::mt19937_64 random(4);
-  for (const std::string options : {"", "--smooth --cap dome", "--cap extend --fair 0.1",
-                                    "--link overlap --only 'a'", "--cap open --target-edge 2"}) {
+  for (const std::string options :
+       {"", "--smooth --cap dome", "--smooth-tolerance 0.05", "--cap extend --fair 0.1",
+        "--link overlap --only 'a'", "--cap open --target-edge 2"}) {
     SCOPED_TRACE(options);
     ASSERT_EQ(run(folder, "reconstruct in.ndjson -o whole.ply " + options).exit_code, 0);
     std::vector<int> cuts{0};

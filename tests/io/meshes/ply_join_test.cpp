@@ -106,6 +106,7 @@ const std::vector<Options>& all_options() {
       {.cap = Cap::extend},
       {.smooth = true},
       {.cap = Cap::dome, .smooth = true},
+      {.smooth = true, .smooth_tolerance = 0.05},
       {.fair = 0.2},
       {.fair = 0.2, .cap = Cap::extend, .smooth = true},
       {.target_edge = 0.7},

@@ -16,6 +16,7 @@
 #include "cdt/effort.h"
 #include "mesh/measure.h"
 #include "mesh/vec3.h"
+#include "reconstruct/clean/cleaning.h"
 #include "reconstruct/reconstruct.h"
 #include "tests/cases.h"
 #include "tests/reconstruct/solid.h"
@@ -74,6 +75,69 @@ TEST(Smooth, ABallIsSeveralTimesRounder) {
   EXPECT_LT(mean_error(bent, 1, highest), mean_error(plain, 1, highest) / 4);
   const double between = pi * (2 * highest - 2 * std::pow(highest, 3) / 3);
   EXPECT_LT(std::abs(volume(bent) - between), std::abs(volume(plain) - between) / 4);
+}
+
+TEST(Smooth, ABallTakesTwiceAsManyTriangles) {
+  const auto slices = stacks::sphere(8, 200);
+  EXPECT_LT(make(slices, true).n_faces(), 2.1 * static_cast<double>(make(slices, false).n_faces()));
+}
+
+TEST(Smooth, ALargerToleranceMakesFewerTriangles) {
+  for (const auto& slices :
+       {stacks::sphere(8, 40), stacks::Torus::slices(12, 24), stacks::y_branch(6, 16)}) {
+    std::size_t finer = std::numeric_limits<std::size_t>::max();
+    for (double tolerance = 1e-3; tolerance < 2; tolerance *= 2) {
+      const Surface bent =
+          reconstruct(slices, {.smooth = true, .smooth_tolerance = tolerance}).surface;
+      EXPECT_EQ(solids::faults(bent), "");
+      EXPECT_LE(bent.n_faces(), finer) << tolerance;
+      finer = bent.n_faces();
+    }
+    EXPECT_EQ(finer, make(slices, false).n_faces());
+  }
+}
+
+TEST(Smooth, ATolerance0IsThatOfTheSlices) {
+  const auto slices = stacks::Torus::slices(12, 40);
+  const Surface bent = reconstruct(slices, {.smooth = true, .smooth_tolerance = 0}).surface;
+  EXPECT_EQ(to_mesh(bent), to_mesh(make(slices, true)));
+}
+
+SliceShape shape_of(const Slice& slice) {
+  std::vector<ContourSource> contours;
+  for (const Contour& contour : slice.contours) contours.push_back({contour.points});
+  std::vector<Defect> repairs;
+  return SliceShape(clean(contours, slice.z, {}, repairs));
+}
+
+/// How far a surface is from the smooth one through its slices, at most over vertices and middles
+/// of edges, in the slabs that have slices on both sides.
+double most_off(const std::vector<Slice>& slices, const Surface& surface) {
+  std::vector<SliceShape> shapes;
+  for (const Slice& slice : slices) shapes.push_back(shape_of(slice));
+  double most = 0;
+  for (std::size_t i = 1; i + 2 < slices.size(); ++i) {
+    const SmoothPassage passage({&shapes[i - 1], &shapes[i], &shapes[i + 1], &shapes[i + 2]});
+    const auto look = [&](const OpenMesh::Vec3d& p) {
+      if (p[2] <= slices[i].z || p[2] >= slices[i + 1].z) return;
+      const Sample sample = passage.at({p[0], p[1], p[2]});
+      most = std::max(most, std::abs(sample.value) / length(sample.gradient));
+    };
+    for (const auto v : surface.vertices()) look(surface.point(v));
+    for (const auto e : surface.edges()) look(surface.calc_edge_midpoint(e));
+  }
+  return most;
+}
+
+TEST(Smooth, TrianglesAreWithinTheTolerance) {
+  const auto slices = stacks::sphere(10, 120);
+  const double straight = most_off(slices, make(slices, false));
+  for (const double tolerance : {0.006, 0.004, 0.002, 0.001}) {
+    ASSERT_LT(tolerance, straight);
+    const Surface bent =
+        reconstruct(slices, {.smooth = true, .smooth_tolerance = tolerance}).surface;
+    EXPECT_LE(most_off(slices, bent), tolerance) << tolerance;
+  }
 }
 
 // Of a dense stack every third slice is kept; the others tell the volume.
@@ -281,7 +345,7 @@ TEST(Smooth, AFanOfThinTilesBendsEvenly) {
     const cdt::Effort effort(1'000'000);  // five times as many where its tiles meet
     return reconstruct(slices, {.smooth = true, .threads = 1}).surface;
   };
-  EXPECT_EQ(faults(smooth()), "");
+  EXPECT_EQ(solids::faults(smooth()), "");
 }
 
 TEST(Smooth, AnEditOfASliceChangesFourSlabs) {

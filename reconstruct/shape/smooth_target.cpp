@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: MIT
+#include "reconstruct/shape/smooth_target.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "mesh/vec3.h"
+#include "reconstruct/shape/ways.h"
+
+namespace loft {
+
+namespace {
+
+using cdt::Point;
+
+/// Vertices stay that share of the slab's height away from the slices.
+constexpr double least_share = 0.02;
+
+/// Where the function is flatter than that, its zero is not near.
+constexpr double least_gradient = 0.2;
+constexpr int newton_steps = 3;
+
+/// The deepest known place of a part.
+struct Depth {
+  Point place;
+  double depth = 0;
+};
+
+/// Pattern search (Hooke and Jeeves, 1961): to the best of eight places around, nearer by half
+/// where none is better.
+void deepen(Depth& deepest, const SignedDistance& distance) {
+  const double side = distance.at(deepest.place).distance < 0 ? -1 : 1;
+  constexpr double finest = 0.01;
+  for (double step = deepest.depth / 2; step > finest * deepest.depth;) {
+    Depth best = deepest;
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        const Point place{deepest.place.x + step * x, deepest.place.y + step * y};
+        const double depth = side * distance.at(place).distance;
+        if (depth > best.depth) best = {place, depth};
+      }
+    }
+    if (best.depth > deepest.depth) {
+      deepest = best;
+    } else {
+      step /= 2;
+    }
+  }
+}
+
+/// The deepest place of each piece that ends in the slab, as near as a search from its corners and
+/// middles of edges comes; of equally deep ones the first by coordinates.
+std::vector<Depth> find_depths(const Region& lower, const Region& upper, const Surroundings& slices,
+                               const Pieces& pieces, const TileSet& tiles) {
+  std::vector<Depth> deepest(pieces.pieces.size());
+  const auto shape = [&](const Piece& piece) -> const SignedDistance& {
+    return slices[piece.lower.is_empty() ? 2 : 1]->distance;
+  };
+  for (std::uint32_t t = 0; t < tiles.tiles.size(); ++t) {
+    const Piece& piece = pieces.pieces[pieces.of_tile[t]];
+    if (!piece.is_end()) continue;
+    Depth& known = deepest[pieces.of_tile[t]];
+    const auto look = [&](const Vec3& p) {
+      const Point place{p[0], p[1]};
+      const double depth = std::abs(shape(piece).at(place).distance);
+      if (depth > known.depth || (depth == known.depth && place < known.place))
+        known = {place, depth};
+    };
+    const auto& nodes = tiles.tiles[t].nodes;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vec3 p = place_of(lower, upper, tiles.inner, nodes[i]);
+      look(p);
+      look(edge_middle(p, place_of(lower, upper, tiles.inner, nodes[(i + 1) % 3])));
+    }
+  }
+  for (std::uint32_t i = 0; i < deepest.size(); ++i)
+    if (deepest[i].depth > 0) deepen(deepest[i], shape(pieces.pieces[i]));
+  return deepest;
+}
+
+}  // namespace
+
+Vec3 between_slices(double bottom, double top, const Vec3& place, double z) {
+  const double least = least_share * (top - bottom);
+  return {place[0], place[1],
+          std::clamp(place[2], std::min(bottom + least, z), std::max(top - least, z))};
+}
+
+SmoothTarget::SmoothTarget(const BentSlab& slab, const TileSet& tiles, double nearness)
+    : bottom_(slab.lower.z),
+      height_(slab.upper.z - slab.lower.z),
+      nearness_(nearness),
+      shapes_(slab.pieces.pieces.size()) {
+  const auto& [lower, upper, slices, pieces] = slab;
+  const std::vector<Depth> depths = find_depths(lower, upper, slices, pieces, tiles);
+  for (std::uint32_t i = 0; i < shapes_.size(); ++i) {
+    const Piece& piece = pieces.pieces[i];
+    if (piece.is_tip()) continue;  // a point or a line tells where it ends
+    if (!piece.bends) continue;
+    if (!piece.is_end()) {
+      // What goes several ways at once is bent over each place as it is.
+      const Point way = piece.registered_difference ? Point{} : piece.shift;
+      shapes_[i] = SmoothPassage(slices, {-way.x, -way.y});
+    } else if (depths[i].depth > 0) {
+      shapes_[i] = SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place,
+                             depths[i].depth, piece.lean);
+    }
+  }
+}
+
+Vec3 SmoothTarget::way_from(const Vec3& place, std::uint32_t piece, double most,
+                            Point facing) const {
+  const Shape& shape = shapes_[piece];
+  if (const auto* passage = std::get_if<SmoothPassage>(&shape))
+    return way_from(place, most, [&](const Vec3& p) { return passage->at(p, facing); });
+  if (const auto* end = std::get_if<SmoothEnd>(&shape)) {
+    const Vec3 upright = end->upright(place);
+    const Vec3 way = way_from(upright, most, [&](const Vec3& p) { return end->at(p); });
+    return minus(end->leant(along(upright, 1, way)), place);
+  }
+  return {};
+}
+
+template <class SampleAt>
+Vec3 SmoothTarget::way_from(const Vec3& place, double most, const SampleAt& sample_at) const {
+  Vec3 way{};
+  for (int step = 0; step < newton_steps; ++step) {
+    const Sample sample = sample_at(along(place, 1, way));
+    const double steepness = std::max(length(sample.gradient), least_gradient);
+    if (std::abs(sample.value) < nearness_ * height_ * steepness) break;
+    way = along(way, -sample.value / (steepness * steepness), sample.gradient);
+    const double least = least_share * height_;
+    way[2] = std::clamp(place[2] + way[2], bottom_ + least, bottom_ + height_ - least) - place[2];
+    way = cut_off(way, most);
+  }
+  return way;
+}
+
+}  // namespace loft
