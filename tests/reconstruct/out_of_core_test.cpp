@@ -97,8 +97,8 @@ TEST(OutOfCore, MakesTheSameSurfaceInTheSameOrder) {
     for (const Cap cap : {Cap::flat, Cap::dome, Cap::open}) {
       expect_same_out_of_core(slices, {.cap = cap, .threads = 1});
       expect_same_out_of_core(slices, {.cap = cap, .smooth = true, .threads = 2});
-      expect_same_out_of_core(
-          slices, {.cap = cap, .smooth = true, .smooth_tolerance = 0.03, .threads = 2});
+      expect_same_out_of_core(slices,
+                              {.cap = cap, .smooth = true, .smooth_tolerance = 0.03, .threads = 2});
       expect_same_out_of_core(slices, {.fair = 0.2, .cap = cap, .threads = 2});
     }
   }
