@@ -7,6 +7,7 @@
 #include <queue>
 #include <utility>
 
+#include "cdt/effort.h"
 #include "mesh/vec3.h"
 #include "reconstruct/shape/edge_index.h"
 #include "reconstruct/shape/half_edges.h"
@@ -51,6 +52,10 @@ constexpr double most_of_diagonal = 1.2;
 
 /// Two triangles are flipped that turn by less, and not to ones that turn by more: 60 degrees.
 constexpr double least_cosine_of_turn = 0.5;
+
+/// Edges that are looked at after a split. On 26 stacks it is seldom more than 60; around a vertex
+/// with thousands of edges flips would go on through all of them.
+constexpr std::size_t most_looks = 128;
 
 /// Vertices go beyond the surface by so much of what their edges stay short of it in the mean. For
 /// a round strip whose rows are halved once 2 would make the volume right; edges along a strip stay
@@ -250,6 +255,7 @@ class Bending {
   }
 
   void split(std::uint32_t half) {
+    cdt::spend();
     const std::uint32_t a = half_edges_.from(half);
     const std::uint32_t b = half_edges_.to(half);
     const std::uint32_t left = half_edges_.apex(half);
@@ -291,13 +297,16 @@ class Bending {
     }
   }
 
-  /// Flips edges as long as that helps; notes those of them that are to be split.
+  /// Flips edges as long as that helps and does not go far; notes those of them that are to be
+  /// split.
   void flip_doubtful() {
     std::vector<std::uint32_t> seen;
-    while (!doubtful_.empty()) {
+    while (!doubtful_.empty() && seen.size() < most_looks) {
       seen.push_back(doubtful_.back());
       flip_next();
     }
+    seen.insert(seen.end(), doubtful_.begin(), doubtful_.end());
+    doubtful_.clear();
     for (const std::uint32_t half : seen) enqueue(half);
   }
 
