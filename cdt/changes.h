@@ -19,4 +19,17 @@ struct Changes {
   std::vector<TriangleId> moved;
 };
 
+/// Of `some`, which are `unmade` or `made` of these changes, those that have not only moved, in
+/// order: take(triangle).
+template <class Take>
+void for_each_not_moved(const Changes& changes, const std::vector<TriangleId>& some, Take take) {
+  auto moved = changes.moved.begin();
+  for (const TriangleId t : some) {
+    if (moved != changes.moved.end() && *moved == t)
+      ++moved;
+    else
+      take(t);
+  }
+}
+
 }  // namespace loft::cdt

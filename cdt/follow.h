@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
@@ -49,6 +48,7 @@ class Follower {
   void begin() {
     values_ = flood(*mesh_, outside_, cross_);
     part_.assign(values_.size(), settled);
+    unmade_.clear();
     remade_.clear();
     changed_.clear();
   }
@@ -58,8 +58,8 @@ class Follower {
     changed_.clear();
     values_.resize(mesh_->triangle_bound(), outside_);
     part_.resize(values_.size(), settled);
-    leave_out(changes.moved, changes.unmade, unmade_);
-    leave_out(changes.moved, changes.made, remade_);
+    leave_out_moved(changes, changes.unmade, unmade_);
+    leave_out_moved(changes, changes.made, remade_);
     for (const TriangleId t : unmade_)
       if (t.index() < values_.size()) values_[t.index()] = outside_;
     gather_parts(remade_);
@@ -102,11 +102,10 @@ class Follower {
     return orient(from(e), to(e), to(first)) > 0;
   }
 
-  static void leave_out(const std::vector<TriangleId>& moved, const std::vector<TriangleId>& all,
-                        std::vector<TriangleId>& rest) {
+  static void leave_out_moved(const Changes& changes, const std::vector<TriangleId>& some,
+                              std::vector<TriangleId>& rest) {
     rest.clear();
-    std::set_difference(all.begin(), all.end(), moved.begin(), moved.end(),
-                        std::back_inserter(rest));
+    for_each_not_moved(changes, some, [&](TriangleId t) { rest.push_back(t); });
   }
 
   void gather_parts(std::span<const TriangleId> made) {

@@ -50,7 +50,6 @@ class Locator {
     friend bool operator==(const Place&, const Place&) = default;
   };
   [[nodiscard]] Place finest(Point p) const;
-  [[nodiscard]] std::size_t cell(Point p, unsigned level) const { return cell(finest(p), level); }
   [[nodiscard]] std::size_t cell(Place place, unsigned level) const;
   /// The binary logarithm of how many columns a level has; it has 4^(level + 1) cells.
   [[nodiscard]] unsigned column_bits(unsigned level) const;

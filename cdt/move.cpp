@@ -144,19 +144,18 @@ void Triangulation::move_together(ConstraintId id, std::span<const Point> points
 /// What has_room() says of all corners that moved, for the triangles around one of them that are
 /// not to be looked at from another.
 bool Triangulation::has_room_beside_moved(VertexId v) const {
-  const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
   const Point place = point(v);
   const EdgeId first = edge(v);
   EdgeId e = first;
   VertexId a = to(e);
   Point at_a = point(a);
-  bool is_of_a = is_for_other(a);
+  bool is_of_a = is_for(a, v);
   do {
     if (is_constrained(e) && !(passages(e).size() == 1 && ends_at(passages(e)[0].segment(), v)))
       return false;
     const VertexId b = apex(e);
     const Point at_b = point(b);
-    const bool is_of_b = is_for_other(b);
+    const bool is_of_b = is_for(b, v);
     if (b == infinite || (!is_of_a && !is_of_b && !is_clear_triangle(at_a, at_b, place)))
       return false;
     a = b;
@@ -195,7 +194,6 @@ void Triangulation::turn_passages(ConstraintId id) {
 /// each looked at once for all that moved. Seen from the vertex, as in fan_out().
 void Triangulation::suspect_around(VertexId v) {
   using detail::Sight;
-  const auto is_for_other = [&](VertexId other) { return has_moved(other) && other < v; };
   const auto suspect = [&](EdgeId e, int side) {
     if (side == 0) side = should_flip(from(e), to(e), apex(e), apex(twin(e))) ? 1 : -1;
     if (side > 0) suspects_.push_back(e);
@@ -206,17 +204,17 @@ void Triangulation::suspect_around(VertexId v) {
   VertexId a = to(e);
   Sight to_before(place, point(apex(twin(e))));
   Sight to_a(place, point(a));
-  bool is_of_a = is_for_other(a);
+  bool is_of_a = is_for(a, v);
   do {
     const VertexId b = apex(e);
     const Sight to_b(place, point(b));
-    const bool is_of_b = is_for_other(b);
+    const bool is_of_b = is_for(b, v);
     if (!is_of_a && !is_of_b) touch_moved(triangle(e));
     if (!is_of_a && !is_constrained(e)) suspect(e, detail::in_circle_filter(to_a, to_before, to_b));
     const EdgeId around = next(e);
     if (!is_constrained(around) && !has_moved(a) && !has_moved(b)) {
       const VertexId d = apex(twin(around));
-      if (!is_for_other(d))
+      if (!is_for(d, v))
         suspect(around, detail::in_circle_filter(to_b, to_a, Sight(place, point(d))));
     }
     to_before = std::exchange(to_a, to_b);

@@ -607,6 +607,10 @@ class Triangulation {
   [[nodiscard]] bool has_moved(VertexId v) const {
     return v != infinite && (uses_[v.index()] & moved) != 0;
   }
+  /// Whether what is beside both is looked at from `other`, not from v: once for all that moved.
+  [[nodiscard]] bool is_for(VertexId other, VertexId v) const {
+    return has_moved(other) && other < v;
+  }
 
   double epsilon_ = 0;
   std::vector<OrientedEdge> edges_;  // some more than triangle_bound_ asks for

@@ -51,7 +51,10 @@ inline constexpr Box3 no_box{
 /// The smallest box around another and a point.
 [[nodiscard]] inline Box3 extended(const Box3& a, const Vec3& p) { return joined(a, Box3{p, p}); }
 
-/// The smallest box around three points.
+/// The smallest box around points.
+[[nodiscard]] inline Box3 box_around(const Vec3& a, const Vec3& b) {
+  return joined(Box3{a, a}, Box3{b, b});
+}
 [[nodiscard]] inline Box3 box_around(const Vec3& a, const Vec3& b, const Vec3& c) {
   Box3 result;
   for (std::size_t axis = 0; axis < 3; ++axis) {

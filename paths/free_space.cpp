@@ -81,13 +81,7 @@ void FreeSpace::follow() {
 /// Those that have only moved come last: of them, only where ways turn may be new.
 void FreeSpace::touch_changed() {
   const cdt::Changes& changes = mesh_->changes();
-  auto moved = changes.moved.begin();
-  for (const TriangleId t : changes.made) {
-    if (moved != changes.moved.end() && *moved == t)
-      ++moved;
-    else
-      touch(t);
-  }
+  cdt::for_each_not_moved(changes, changes.made, [this](TriangleId t) { touch(t); });
   for (const TriangleId t : overlay_->recovered()) touch(t);
   changed_ = touched_.size();
   for (const TriangleId t : changes.moved) touch(t);

@@ -103,6 +103,39 @@ std::size_t go_back(const PairGrid& grid, std::size_t row_index, const Row& abov
   }
 }
 
+/// What courses that have come to some columns cost at least, but for the rows, until `end`.
+double least_from(const double* come, Range range, std::size_t end, const CostToCome& to_come) {
+  double least = infinity;
+  for (std::size_t j = range.first; j < range.last; ++j)
+    least = std::min(least, come[j - range.first] + to_come.of_columns(j, end));
+  return least;
+}
+
+/// Goes from row to row, with what pairs cost in memory that is used again.
+class Sweep {
+ public:
+  Sweep(const PairGrid& grid, std::size_t first_row) : grid_(grid), row_(first_row) {}
+
+  /// The next row. `least` is infinite, but 0 where courses start; it has to stay where it is until
+  /// the row after it is done.
+  void go_to(Range range, double* least) {
+    cdt::spend(1 + (range.last - range.first) / pairs_of_step);
+    const Row row{range, grid_.costs(row_, range, memory_), least};
+    if (before_.least != nullptr) go_on(grid_, row_, before_, row, least);
+    go_along(grid_, row, least);
+    before_ = row;
+    std::swap(memory_, memory_before_);
+    ++row_;
+  }
+
+ private:
+  const PairGrid& grid_;
+  std::size_t row_;
+  Row before_{};
+  std::vector<double> memory_;
+  std::vector<double> memory_before_;
+};
+
 /// Some of the rows are looked at whether they can be left.
 constexpr std::size_t rows_of_look = 8;
 
@@ -177,45 +210,24 @@ CostToCome::CostToCome(const PairGrid& grid) {
     of_columns_[j] = of_columns_[j + 1] + step(least_of_columns, j, *grid.column_steps(j + 1));
 }
 
-namespace {
-
-/// What courses that have come to some columns cost at least, but for the rows, until `end`.
-double least_from(const double* come, Range range, std::size_t end, const CostToCome& to_come) {
-  double least = infinity;
-  for (std::size_t j = range.first; j < range.last; ++j)
-    least = std::min(least, come[j - range.first] + to_come.of_columns(j, end));
-  return least;
-}
-
-}  // namespace
-
 bool may_cost_less(const PairGrid& grid, Range starts, std::span<const Range> ranges,
                    const CostToCome& to_come, double most) {
   const Range ends{starts.first + grid.columns(), starts.last + grid.columns()};
-  std::vector<double> memory;
-  std::vector<double> memory_before;
+  Sweep sweep(grid, 0);
+  Range range{};
   std::vector<double> least;
   std::vector<double> least_before;
-  Row before{};
   for (std::size_t i = 0; i < ranges.size(); ++i) {
-    const Range range{std::max(ranges[i].first, starts.first), std::min(ranges[i].last, ends.last)};
-    const std::size_t count = range.last - range.first;
-    cdt::spend(1 + count / pairs_of_step);
-    least.assign(count, infinity);
-    const Row row{range, grid.costs(i, range, memory), least.data()};
-    if (i == 0)
-      std::fill_n(least.begin(), starts.last - starts.first, 0.0);
-    else
-      go_on(grid, i, before, row, least.data());
-    go_along(grid, row, least.data());
-    if (i % rows_of_look == 0 &&
-        !(least_from(row.least, range, ends.first, to_come) + to_come.of_rows(i) < most))
-      return false;
-    before = row;
-    std::swap(memory, memory_before);
     std::swap(least, least_before);
+    range = {std::max(ranges[i].first, starts.first), std::min(ranges[i].last, ends.last)};
+    least.assign(range.last - range.first, infinity);
+    if (i == 0) std::fill_n(least.begin(), starts.last - starts.first, 0.0);
+    sweep.go_to(range, least.data());
+    if (i % rows_of_look == 0 &&
+        !(least_from(least.data(), range, ends.first, to_come) + to_come.of_rows(i) < most))
+      return false;
   }
-  const double* const end = before.least - before.range.first;
+  const double* const end = least.data() - range.first;
   return *std::min_element(end + ends.first, end + ends.last) < most;
 }
 
@@ -234,26 +246,15 @@ void Courses::fill_forward(const CostToCome* to_come, double most) {
   std::size_t count = 0;
   for (const Range range : ranges_) count += range.last - range.first;
   forward_.reserve(count);
-  std::vector<double> memory;
-  std::vector<double> memory_before;
-  Row before{};
+  Sweep sweep(grid_, first_row_);
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
-    const Range range = ranges_[i];
-    cdt::spend(1 + (range.last - range.first) / pairs_of_step);
-    starts_.push_back(starts_.back() + range.last - range.first);
+    starts_.push_back(starts_.back() + ranges_[i].last - ranges_[i].first);
     forward_.resize(starts_.back(), infinity);
-    double* const least = forward_.data() + starts_[i];
-    const Row row{range, grid_.costs(first_row_ + i, range, memory), least};
-    if (i == 0)
-      least[0] = 0;
-    else
-      go_on(grid_, first_row_ + i, before, row, least);
-    go_along(grid_, row, least);
+    if (i == 0) forward_[0] = 0;
+    sweep.go_to(ranges_[i], forward_.data() + starts_[i]);
     const bool is_early = i < ranges_.size() / early;
     is_found_ = to_come == nullptr || !is_early || least_through(i, *to_come) < most;
     if (!is_found_) return;
-    before = row;
-    std::swap(memory, memory_before);
   }
 }
 

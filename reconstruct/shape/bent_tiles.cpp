@@ -256,10 +256,7 @@ class Bending {
 
   void split(std::uint32_t half) {
     cdt::spend();
-    const std::uint32_t a = half_edges_.from(half);
-    const std::uint32_t b = half_edges_.to(half);
-    const std::uint32_t left = half_edges_.apex(half);
-    const std::uint32_t right = half_edges_.apex(half_edges_.twin(half));
+    const auto [a, b, left, right] = half_edges_.diamond(half);
     piece_.resize(piece_.size() + 2, piece_[half / 3]);
     const BentEdge bent = edge(a, b);
     const std::uint32_t node = add_middle(a, b, bent);
@@ -314,8 +311,7 @@ class Bending {
     const std::uint32_t half = doubtful_.back();
     doubtful_.pop_back();
     if (!may_flip(half) || !(gain_of_flip(half) > 0)) return;
-    const std::uint32_t left = half_edges_.apex(half);
-    const std::uint32_t right = half_edges_.apex(half_edges_.twin(half));
+    const auto [a, b, left, right] = half_edges_.diamond(half);
     edge(left, right).was_in = true;
     const auto around = half_edges_.flip(half);
     doubtful_.insert(doubtful_.end(), around.begin(), around.end());
@@ -325,10 +321,7 @@ class Bending {
   [[nodiscard]] bool may_flip(std::uint32_t half) {
     const std::uint32_t twin = half_edges_.twin(half);
     if (twin == Origin::none) return false;
-    const std::uint32_t a = half_edges_.from(half);
-    const std::uint32_t b = half_edges_.to(half);
-    const std::uint32_t left = half_edges_.apex(half);
-    const std::uint32_t right = half_edges_.apex(twin);
+    const auto [a, b, left, right] = half_edges_.diamond(half);
     const auto& tiles = bent_.tiles.tiles;
     if (in_one_slice(a, b) || in_one_slice(left, right) || left == right ||
         tiles[half / 3].kind != tiles[twin / 3].kind || is_firm(a, b) || is_firm(left, right) ||
@@ -358,10 +351,7 @@ class Bending {
   /// By how much nearer the other diagonal is, and better formed: by twice the area of the thinner
   /// triangle, over the square of its longest edge.
   [[nodiscard]] double gain_of_flip(std::uint32_t half) {
-    const std::uint32_t a = half_edges_.from(half);
-    const std::uint32_t b = half_edges_.to(half);
-    const std::uint32_t left = half_edges_.apex(half);
-    const std::uint32_t right = half_edges_.apex(half_edges_.twin(half));
+    const auto [a, b, left, right] = half_edges_.diamond(half);
     const std::uint32_t piece = piece_[half / 3];
     const int level = edge(a, b).level;
     BentEdge& other = edge(left, right);

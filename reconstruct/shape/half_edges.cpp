@@ -36,17 +36,10 @@ void HalfEdges::join(std::uint32_t half, std::uint32_t other) {
 }
 
 std::array<std::uint32_t, 8> HalfEdges::split(std::uint32_t half, std::uint32_t node) {
-  const std::uint32_t other = twins_[half];
-  const std::uint32_t a = from(half);
-  const std::uint32_t b = to(half);
-  const std::uint32_t c = apex(half);
-  const std::uint32_t d = apex(other);
-  const std::uint32_t bc = twins_[next(half)];
-  const std::uint32_t ca = twins_[before(half)];
-  const std::uint32_t ad = twins_[next(other)];
-  const std::uint32_t db = twins_[before(other)];
+  const auto [a, b, c, d] = diamond(half);
+  const auto [bc, ca, ad, db] = beyond(half);
   const std::uint32_t at_a = half / 3;
-  const std::uint32_t at_b = other / 3;
+  const std::uint32_t at_b = twins_[half] / 3;
   const auto beyond_b = static_cast<std::uint32_t>(tiles_.size());
   const std::uint32_t beyond_a = beyond_b + 1;
   tiles_[at_a].nodes = {a, node, c};
@@ -67,17 +60,10 @@ std::array<std::uint32_t, 8> HalfEdges::split(std::uint32_t half, std::uint32_t 
 }
 
 std::array<std::uint32_t, 5> HalfEdges::flip(std::uint32_t half) {
-  const std::uint32_t other = twins_[half];
-  const std::uint32_t a = from(half);
-  const std::uint32_t b = to(half);
-  const std::uint32_t c = apex(half);
-  const std::uint32_t d = apex(other);
-  const std::uint32_t bc = twins_[next(half)];
-  const std::uint32_t ca = twins_[before(half)];
-  const std::uint32_t ad = twins_[next(other)];
-  const std::uint32_t db = twins_[before(other)];
+  const auto [a, b, c, d] = diamond(half);
+  const auto [bc, ca, ad, db] = beyond(half);
   const std::uint32_t at_b = half / 3;
-  const std::uint32_t at_a = other / 3;
+  const std::uint32_t at_a = twins_[half] / 3;
   tiles_[at_b].nodes = {c, d, b};
   tiles_[at_a].nodes = {d, c, a};
   join(3 * at_b, 3 * at_a);

@@ -27,6 +27,18 @@ class HalfEdges {
   /// The same edge in the tile beside; none at a rim, and at an edge of more than two tiles.
   [[nodiscard]] std::uint32_t twin(std::uint32_t half) const { return twins_[half]; }
 
+  /// The two tiles at an edge: its ends, and the corners left and right of it. Precondition: there
+  /// is a twin.
+  struct Diamond {
+    std::uint32_t a;
+    std::uint32_t b;
+    std::uint32_t left;
+    std::uint32_t right;
+  };
+  [[nodiscard]] Diamond diamond(std::uint32_t half) const {
+    return {from(half), to(half), apex(half), apex(twin(half))};
+  }
+
   /// Puts a node into an edge and joins it with both apexes. Returns the half-edges of all edges of
   /// the four tiles, those at the node last. The second and the third tile are new, the others keep
   /// their numbers. Precondition: there is a twin.
@@ -45,6 +57,17 @@ class HalfEdges {
   }
   [[nodiscard]] std::uint32_t node(std::uint32_t half) const {
     return tiles_[half / 3].nodes[half % 3];
+  }
+  /// What lies beyond the sides of a diamond.
+  struct Beyond {
+    std::uint32_t b_left;
+    std::uint32_t left_a;
+    std::uint32_t a_right;
+    std::uint32_t right_b;
+  };
+  [[nodiscard]] Beyond beyond(std::uint32_t half) const {
+    const std::uint32_t other = twin(half);
+    return {twin(next(half)), twin(before(half)), twin(next(other)), twin(before(other))};
   }
   void join(std::uint32_t half, std::uint32_t other);
 

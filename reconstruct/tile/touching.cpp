@@ -4,38 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
+#include "mesh/box3.h"
 #include "mesh/vec3.h"
 
 namespace loft {
 
 namespace {
-
-struct Box {
-  Vec3 low;
-  Vec3 high;
-
-  [[nodiscard]] bool touches(const Box& other, double distance) const {
-    for (unsigned k = 0; k < 3; ++k)
-      if (high[k] + distance < other.low[k] || other.high[k] + distance < low[k]) return false;
-    return true;
-  }
-};
-
-Box box_of(const Vec3& a, const Vec3& b) {
-  Box box;
-  for (unsigned k = 0; k < 3; ++k) std::tie(box.low[k], box.high[k]) = std::minmax(a[k], b[k]);
-  return box;
-}
-
-Box box_of(const Corners& triangle) {
-  Box box;
-  for (unsigned k = 0; k < 3; ++k)
-    std::tie(box.low[k], box.high[k]) =
-        std::minmax({triangle[0][k], triangle[1][k], triangle[2][k]});
-  return box;
-}
 
 double clamped_share(double part, double whole) {
   return whole > 0 ? std::clamp(part / whole, 0.0, 1.0) : 0;
@@ -77,17 +52,17 @@ bool is_corner(const Vec3& place, const Corners& triangle) {
 }  // namespace
 
 bool triangles_touch(const Corners& a, const Corners& b, double distance) {
-  if (!box_of(a).touches(box_of(b), distance)) return false;
-  std::array<Box, 3> boxes;
-  for (unsigned j = 0; j < 3; ++j) boxes[j] = box_of(b[j], b[(j + 1) % 3]);
+  if (!boxes_are_near(box_around(a), box_around(b), distance)) return false;
+  std::array<Box3, 3> boxes;
+  for (unsigned j = 0; j < 3; ++j) boxes[j] = box_around(b[j], b[(j + 1) % 3]);
   for (unsigned i = 0; i < 3; ++i) {
     const std::array own{a[i], a[(i + 1) % 3]};
-    const Box box = box_of(own[0], own[1]);
+    const Box3 box = box_around(own[0], own[1]);
     for (unsigned j = 0; j < 3; ++j) {
       const std::array other{b[j], b[(j + 1) % 3]};
       const bool have_end_in_common =
           own[0] == other[0] || own[0] == other[1] || own[1] == other[0] || own[1] == other[1];
-      if (!have_end_in_common && box.touches(boxes[j], distance) &&
+      if (!have_end_in_common && boxes_are_near(box, boxes[j], distance) &&
           squared_distance(own[0], own[1], other[0], other[1]) < distance * distance)
         return true;
     }
