@@ -1,9 +1,10 @@
 #!/bin/sh
 # SPDX-License-Identifier: MIT
-# Compares loft::overlay with Clipper 6.4.2 and GEOS on the same workloads, in turn, and prints a
-# table of medians.
+# Compares loft::overlay with Clipper 6.4.2, GEOS, Boost.Polygon and CGAL on the same workloads, in
+# turn, and prints a table of medians.
 #   sh bench/overlay.sh HARNESS_DIR WORKLOAD_DIR [RUNS]      3 runs by default
-# HARNESS_DIR holds the programs bool_clipper1, bool_geos and gis_geos; see bench/README.md.
+# HARNESS_DIR holds the programs bool_clipper1 and gis_geos, and of bool_geos, bool_boost and
+# bool_cgal those that are to be in the table; see bench/README.md.
 # Every line that a program printed is kept in build/bench/overlay.log.
 set -eu
 if [ $# -lt 2 ]; then
@@ -34,6 +35,10 @@ while [ "$round" -lt "$runs" ]; do
   round=$((round + 1))
   echo "Round $round of $runs" >&2
   run clipper "$harness/bool_clipper1" "$workloads"
+  for peer in boost cgal geos; do
+    [ -x "$harness/bool_$peer" ] || continue
+    run "$peer" "$harness/bool_$peer" "$workloads"
+  done
   for name in discs_1000 discs_10000 grid_100; do
     run "loft-$name-union" "$loft" union "$workloads/$name.txt" 3
   done
@@ -54,7 +59,8 @@ while [ "$round" -lt "$runs" ]; do
   done
 done
 
-# A line of a peer: `peer-version workload what N ms ...`; of ours: `... median=N ...`.
+# A line of a peer: `peer version workload what N ms ...`, whose name may have several words; of
+# ours: `... median=N ...`.
 awk '
 function median(key,   values, count, i, j, value) {
   count = split(times[key], values, " ")
@@ -72,25 +78,43 @@ function compare(title, theirs, ours, scale,   a, b) {
   if (a == "" || b == "") return
   printf "%-52s %12.3f %12.3f %8.4f\n", title, a, b * scale, b * scale / a
 }
+# One row for each peer that was run on this workload.
+function compare_all(title, work, ours, scale,   i) {
+  for (i = 1; i <= 4; i++) compare(title " (" names[i] ")", peers[i] " " work, ours, scale)
+}
+BEGIN {
+  split("clipper boost cgal geos", peers, " ")
+  split("Clipper 6.4.2,Boost.Polygon,CGAL,GEOS", names, ",")
+}
 {
   row = $1
-  if (row == "clipper") note("clipper " $3 " " $4, $4 == "move" ? $6 : $5)
-  else if (row ~ /^geos-/ && / ms /) {
+  if (row ~ /^(clipper|boost|cgal|geos)$/) {
+    work = ""
+    for (i = 3; i <= NF; i++) {
+      if (work == "" && $i ~ /^(discs|grid|layer|soup)_/) work = $i " " $(i + 1)
+      if ($i == "ms") { note(row " " work, $(i - 1)); break }
+    }
+  } else if (row ~ /^geos-/ && / ms /) {
     map = substr(row, 6)
     for (i = 5; i <= NF; i++) if ($i == "ms") { words = $5; for (j = 6; j < i - 1; j++) words = words " " $j; note("geos " map " " words, $(i - 1)) }
   } else if (match($0, /median=[0-9.]+/)) note(row, substr($0, RSTART + 7, RLENGTH - 7))
 }
 END {
   printf "%-52s %12s %12s %8s\n", "median, ms", "peer", "loft", "ratio"
-  compare("discs_1000, union (Clipper 6.4.2)", "clipper discs_1000 union", "loft-discs_1000-union", 1)
-  compare("discs_10000, union", "clipper discs_10000 union", "loft-discs_10000-union", 1)
-  compare("grid_100, union", "clipper grid_100 union", "loft-grid_100-union", 1)
-  compare("layer_1000, four operations against one", "clipper layer_1000 intersect", "loft-layer_1000-four", 1)
-  compare("layer_5000, four operations against one", "clipper layer_5000 intersect", "loft-layer_5000-four", 1)
-  compare("soup_200, and", "clipper soup_200 intersect", "loft-soup_200-and", 1)
-  compare("soup_500, and", "clipper soup_500 intersect", "loft-soup_500-and", 1)
-  compare("soup_1000, and", "clipper soup_1000 intersect", "loft-soup_1000-and", 1)
-  compare("one of discs_2000 moves", "clipper discs_2000 move", "loft-move", 0.001)
+  compare_all("discs_1000, union", "discs_1000 union", "loft-discs_1000-union", 1)
+  compare_all("discs_10000, union", "discs_10000 union", "loft-discs_10000-union", 1)
+  compare_all("grid_100, union", "grid_100 union", "loft-grid_100-union", 1)
+  split("1000 5000", sizes, " ")
+  for (m = 1; m <= 2; m++) {
+    work = "layer_" sizes[m]
+    compare_all(work ", four operations against one", work " intersect", "loft-" work "-four", 1)
+  }
+  split("200 500 1000", sizes, " ")
+  for (m = 1; m <= 3; m++) {
+    work = "soup_" sizes[m]
+    compare_all(work ", and", work " intersect", "loft-" work "-and", 1)
+  }
+  compare_all("one of discs_2000 moves", "discs_2000 move", "loft-move", 0.001)
   split("50m 10m", maps, " ")
   for (m = 1; m <= 2; m++) {
     compare("world " maps[m] ", owners, faults, borders (GEOS, dissolve)", "geos " maps[m] " dissolve", "loft-" maps[m] "-map", 1)
