@@ -76,6 +76,37 @@ std::string_view trimmed(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(padding) + 1 - begin);
 }
 
+/// A buffer from which DCMTK takes long values when they are asked for, not all at once.
+class LazyBuffer final : public DcmInputBufferStream {
+ public:
+  /// The bytes must be there as long as what is read from them.
+  explicit LazyBuffer(std::string_view bytes) : bytes_(bytes) {
+    setBuffer(bytes.data(), static_cast<offile_off_t>(bytes.size()));
+    setEos();
+  }
+
+  [[nodiscard]] DcmInputStreamFactory* newFactory() const override {
+    return new Rest(bytes_.substr(static_cast<std::size_t>(tell())));
+  }
+
+ private:
+  /// What was left when DCMTK came to a value.
+  class Rest final : public DcmInputStreamFactory {
+   public:
+    explicit Rest(std::string_view bytes) : bytes_(bytes) {}
+    [[nodiscard]] DcmInputStream* create() const override { return new LazyBuffer(bytes_); }
+    [[nodiscard]] DcmInputStreamFactory* clone() const override { return new Rest(*this); }
+    [[nodiscard]] DcmInputStreamFactoryType ident() const override {
+      return DFT_DcmInputTempFileStreamFactory;  // the nearest: asked for when files are written
+    }
+
+   private:
+    std::string_view bytes_;
+  };
+
+  std::string_view bytes_;
+};
+
 }  // namespace
 
 DicomObject::DicomObject(std::string_view bytes, std::string_view name) : name_(name) {
@@ -84,16 +115,13 @@ DicomObject::DicomObject(std::string_view bytes, std::string_view name) : name_(
   transfer_syntax_ = opening.transfer_syntax;
   const E_TransferSyntax syntax = syntax_of(opening, name);
   if (!opening.encoding.is_explicit) require_dictionary(name);
-  std::string inflated;
   std::string_view content = bytes.substr(opening.begin);
   if (opening.is_deflated) {
-    inflated = inflate(content, name);
-    content = inflated;
+    inflated_ = inflate(content, name);
+    content = inflated_;
   }
   check_lengths(content, opening.encoding, opening.is_deflated ? 0 : opening.begin, name);
-  DcmInputBufferStream stream;
-  stream.setBuffer(content.data(), static_cast<offile_off_t>(content.size()));
-  stream.setEos();
+  LazyBuffer stream(content);
   data_set_.transferInit();
   const OFCondition read = data_set_.read(stream, syntax);
   data_set_.transferEnd();
@@ -135,21 +163,31 @@ void DicomObject::note_once(const std::string& note) {
 }
 
 std::string_view value_of(DcmItem& item, const DcmTagKey& tag) {
+  DcmElement* const element = element_of(item, tag);
+  return element == nullptr ? std::string_view() : value_of(*element);
+}
+
+DcmElement* element_of(DcmItem& item, const DcmTagKey& tag) {
   DcmElement* element = nullptr;
-  if (item.findAndGetElement(tag, element).bad() || element == nullptr) return {};
+  return item.findAndGetElement(tag, element).good() ? element : nullptr;
+}
+
+std::string_view value_of(DcmElement& element) {
   char* text = nullptr;
   Uint32 length = 0;
-  if (element->getString(text, length).good())
+  if (element.getString(text, length).good())
     return text == nullptr ? std::string_view() : std::string_view(text, length);
   Uint8* bytes = nullptr;
-  if (element->getUint8Array(bytes).good() && bytes != nullptr)
-    return {reinterpret_cast<const char*>(bytes), element->getLength()};
+  if (element.getUint8Array(bytes).good() && bytes != nullptr)
+    return {reinterpret_cast<const char*>(bytes), element.getLength()};
   return {};
 }
 
 std::string_view trimmed_value_of(DcmItem& item, const DcmTagKey& tag) {
   return trimmed(value_of(item, tag));
 }
+
+std::string_view trimmed_value_of(DcmElement& element) { return trimmed(value_of(element)); }
 
 std::string_view next_value(std::string_view& text) {
   const std::size_t end = std::min(text.find('\\'), text.size());

@@ -23,7 +23,8 @@ namespace loft::io {
 class DicomObject {
  public:
   /// Throws InputError for what is no DICOM file, is cut off or claims what it does not have, and
-  /// for a transfer syntax that DCMTK does not know.
+  /// for a transfer syntax that DCMTK does not know. The bytes must be there as long as this is:
+  /// long values are taken from them when they are asked for.
   DicomObject(std::string_view bytes, std::string_view name);
 
   [[nodiscard]] DcmDataset& data_set() { return data_set_; }
@@ -41,6 +42,7 @@ class DicomObject {
   [[nodiscard]] std::string to_utf8(std::string_view text);
   void note_once(const std::string& note);
 
+  std::string inflated_;  // the bytes that count, where those of the file are compressed
   DcmDataset data_set_;
   std::string name_;
   std::string transfer_syntax_;
@@ -53,6 +55,12 @@ class DicomObject {
 [[nodiscard]] std::string_view value_of(DcmItem& item, const DcmTagKey& tag);
 /// The same without blanks and padding at its ends.
 [[nodiscard]] std::string_view trimmed_value_of(DcmItem& item, const DcmTagKey& tag);
+/// An element of an item; null where it has none.
+[[nodiscard]] DcmElement* element_of(DcmItem& item, const DcmTagKey& tag);
+/// What it holds, as above: until `element.compact()`, which gives back the memory of a long value.
+/// Of several elements by several threads at once.
+[[nodiscard]] std::string_view value_of(DcmElement& element);
+[[nodiscard]] std::string_view trimmed_value_of(DcmElement& element);
 
 /// Takes the next value off a text that has a backslash between values, without blanks around it.
 [[nodiscard]] std::string_view next_value(std::string_view& text);

@@ -157,7 +157,7 @@ class StructureSet {
     std::size_t index = 0;
     bool is_exclusive_or = false;
     std::optional<double> count;  ///< of points
-    std::string_view numbers;
+    DcmElement* numbers = nullptr;
   };
   struct Points {
     std::vector<Vec3> points;
@@ -171,7 +171,7 @@ class StructureSet {
     if (is_exclusive_or || type == "CLOSED_PLANAR")
       return Claim{index, is_exclusive_or,
                    to_number(trimmed_value_of(item, DCM_NumberOfContourPoints)),
-                   trimmed_value_of(item, DCM_ContourData)};
+                   element_of(item, DCM_ContourData)};
     ++roi.left_out[type.empty() ? "contour of no type" : in_words(type)];
     return {};
   }
@@ -180,13 +180,22 @@ class StructureSet {
 
   /// By several threads at once.
   static Points read_points(const Claim& claim) {
+    if (claim.numbers == nullptr) return {};
+    Points result = points_in(trimmed_value_of(*claim.numbers), claim.count);
+    claim.numbers->compact();
+    return result;
+  }
+
+  static Points points_in(std::string_view text, std::optional<double> claimed) {
     constexpr std::size_t least = 6;  // bytes that a point takes
-    const std::size_t room = claim.numbers.size() / least + 1;
+    const std::size_t room = text.size() / least + 1;
     Points result;
-    result.points.reserve(static_cast<std::size_t>(
-        std::clamp(claim.count.value_or(0), 0.0, static_cast<double>(room))));
+    result.points.reserve(
+        static_cast<std::size_t>(std::clamp(claimed.value_or(0), 0.0, static_cast<double>(room))));
     std::size_t count = 0;
-    for (std::string_view text = claim.numbers; !text.empty(); ++count) {
+    Vec3 point{};
+    std::size_t axis = 0;
+    for (; !text.empty(); ++count) {
       std::string_view before = text;
       const auto number = next_number(text);
       if (!number || !admitted::slice.admits(*number)) {
@@ -194,10 +203,12 @@ class StructureSet {
                          ", is no number of a usable size; export the structure again";
         return result;
       }
-      if (count % 3 == 0) result.points.emplace_back();
-      result.points.back()[count % 3] = *number;
+      point[axis] = *number;
+      if (++axis < point.size()) continue;
+      result.points.push_back(point);
+      axis = 0;
     }
-    if (count % 3 != 0)
+    if (axis != 0)
       result.problem = "has " + std::to_string(count) +
                        " numbers, which are no triples x\\y\\z; export the structure again";
     return result;
