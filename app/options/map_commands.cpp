@@ -17,8 +17,6 @@ namespace loft::app {
 
 namespace {
 
-constexpr const char* map_results = "Results";
-
 /// `even-odd` and `evenodd` are the same.
 std::string without_hyphens(std::string text) {
   std::erase(text, '-');
@@ -77,7 +75,7 @@ CLI::App* add_overlay(CLI::App& app, OverlayCommand& command) {
                    "A layer for each value of that property, not for each file; files have no "
                    "value in common");
   add_fill_option(*sub, command.fill);
-  begin_group(*sub, map_results);
+  begin_group(*sub, results_heading);
   sub->add_option("--keep", command.keep,
                   "What is wanted: layers by their names and a | b, a & b, a - b, a ^ b, ~a, "
                   "at_least(2, a, b, c), exactly(1, a, b), parentheses; names in double quotes "
@@ -129,7 +127,7 @@ CLI::App* add_coverage(CLI::App& app, CoverageCommand& command) {
   add_layer_option(*sub, command.layer_by,
                    "Features with the same value of that property are one area (default: each is "
                    "one, called by its name, or number)");
-  begin_group(*sub, map_results);
+  begin_group(*sub, results_heading);
   sub->add_flag("--borders", command.borders, "Print who shares a border, and how long it is, too");
   sub->add_option("-o,--output", command.outputs,
                   "Output file: .csv, the table of faults; " + io::map_output_extensions() +
@@ -164,7 +162,7 @@ CLI::App* add_query(CLI::App& app, QueryCommand& command) {
   add_layer_option(*sub, command.layer_by,
                    "Areas are called by that property, and one if it is the same (default: name, "
                    "or the feature's number)");
-  begin_group(*sub, map_results);
+  begin_group(*sub, results_heading);
   sub->add_option("-o,--output", command.outputs,
                   "Output file, .csv; of lines " + io::map_output_extensions() +
                       ", too (.svg: over the map); may be repeated; standard output without it")
@@ -227,7 +225,7 @@ CLI::App* add_path(CLI::App& app, PathCommand& command) {
                   "Edits of the scene, " + io::scene_edit_extensions() +
                       ", one a line; after each the paths are found anew")
       ->type_name("FILE");
-  begin_group(*sub, map_results);
+  begin_group(*sub, results_heading);
   sub->add_option("-o,--output", command.outputs,
                   "Output file: .csv, a table; .geojson .json, lines with their status and length; "
                   ".svg, a picture of the scene with the paths; may be repeated; the table on "
@@ -275,7 +273,7 @@ CLI::App* add_classify(CLI::App& app, ClassifyCommand& command) {
          "The column that is summed by class, and makes points darker in pictures (default: "
          "value, z or weight, if there is one; else the sum of x and y makes them darker)")
       ->type_name("NAME");
-  begin_group(*sub, map_results);
+  begin_group(*sub, results_heading);
   sub->add_option(
          "-o,--output", command.outputs,
          "Output file: .csv, the table with a column class; .geojson .json, its points with "
@@ -352,7 +350,7 @@ CLI::App* add_field(CLI::App& app, FieldCommand& command) {
   sub->add_option("--level", command.level, "Tell the volume over that level and under it")
       ->type_name("LEVEL")
       ->check(CLI::Validator(complain_of_value, ""));
-  begin_group(*sub, map_results);
+  begin_group(*sub, results_heading);
   sub->add_option(
          "-o,--output", command.outputs,
          "Output file: .csv, the table of --at or --profile; .geojson .json, its points, or "

@@ -11,6 +11,11 @@
 
 namespace loft::app {
 
+/// The heading of options that say what comes out, and how it is told.
+inline constexpr const char* results_heading = "Results";
+/// The heading of options of commands that serve.
+inline constexpr const char* server_heading = "Server";
+
 /// Options that are added to a command from here on stand under that heading in its help.
 void begin_group(CLI::App& sub, const std::string& heading);
 
