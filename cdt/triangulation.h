@@ -390,9 +390,10 @@ class Triangulation {
   }
   /// The sets grow only as far as there are constrained edges.
   [[nodiscard]] PassageSet& set_at(EdgeId e) {
-    if (e.index() >= edge_sets_.size()) edge_sets_.resize(edges_.size());
+    if (e.index() >= edge_sets_.size()) grow_sets();
     return edge_sets_[e.index()];
   }
+  [[gnu::cold]] void grow_sets();  // so that attach() is small, and inlined
   /// Puts an edge in the place of another that had this side.
   void attach(EdgeId e, Side side) {
     const std::uint32_t flag = side.bits & OrientedEdge::constrained;

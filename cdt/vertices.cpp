@@ -93,6 +93,8 @@ void Triangulation::grow() {
   edges_.resize(edges_.size() + more);
 }
 
+void Triangulation::grow_sets() { edge_sets_.resize(edges_.size()); }
+
 void Triangulation::free_triangle(TriangleId t) {
   touch(t);
   for (unsigned i = 0; i < 3; ++i) edges_[3 * t.index() + i] = {VertexId::none(), 0};
