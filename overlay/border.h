@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "overlay/flat_map.h"
 #include "overlay/layer.h"
+#include "overlay/numbers.h"
 
 namespace loft::overlay {
 
@@ -37,7 +37,7 @@ struct BorderEdge {
 class Border {
  public:
   [[nodiscard]] std::span<const BorderEdge> edges() const { return edges_; }
-  [[nodiscard]] bool has(EdgeId edge) const { return slots_.find(edge.index()) != FlatMap::none; }
+  [[nodiscard]] bool has(EdgeId edge) const { return slots_.find(edge.index()) != Numbers::none; }
 
   /// Precondition: it is not there.
   void add(const BorderEdge& edge) {
@@ -48,14 +48,14 @@ class Border {
   /// Puts an edge that is there where it is now, if that is elsewhere. Returns what it was then.
   std::optional<BorderEdge> move(const BorderEdge& edge) {
     const std::uint32_t slot = slots_.find(edge.edge.index());
-    if (slot == FlatMap::none || edges_[slot].is_at(edge)) return std::nullopt;
+    if (slot == Numbers::none || edges_[slot].is_at(edge)) return std::nullopt;
     return std::exchange(edges_[slot], edge);
   }
 
   /// Takes an edge out, if it is there.
   std::optional<BorderEdge> take(EdgeId edge) {
     const std::uint32_t slot = slots_.find(edge.index());
-    if (slot == FlatMap::none) return std::nullopt;
+    if (slot == Numbers::none) return std::nullopt;
     const BorderEdge taken = edges_[slot];
     edges_[slot] = edges_.back();
     edges_.pop_back();
@@ -64,14 +64,17 @@ class Border {
     return taken;
   }
 
-  void clear() {
-    edges_.clear();
-    slots_.clear();
+  /// These edges in place of all that there are; each once. `bound`: of all edges' numbers.
+  void assign(std::vector<BorderEdge> edges, std::size_t bound) {
+    edges_ = std::move(edges);
+    slots_ = Numbers(edges_.size(), bound);
+    for (std::uint32_t slot = 0; slot < edges_.size(); ++slot)
+      slots_.set(edges_[slot].edge.index(), slot);
   }
 
  private:
   std::vector<BorderEdge> edges_;
-  FlatMap slots_;  // by edge: where in edges_
+  Numbers slots_;  // by edge: where in edges_
 };
 
 }  // namespace loft::overlay

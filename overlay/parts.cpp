@@ -184,7 +184,7 @@ void Overlay::Parts::update(Result& result) {
 
 void Overlay::Parts::add_border(Result& result, EdgeId e) {
   result.border.add(border_edge(mesh, e));
-  bordering[Triangulation::triangle(e).index()] |= static_cast<std::uint8_t>(1U << e.index() % 3);
+  note_bordering(e);
 }
 
 void Overlay::Parts::take_border(Result& result, EdgeId e) {
@@ -215,8 +215,8 @@ void Overlay::Parts::check_borders(Result& result, TriangleId t) {
 
 /// All of a result's border, which is in `come` then, as what there was is in `gone`.
 void Overlay::Parts::build_border(Result& result) {
-  result.border.clear();
-  result.change.come.clear();
+  std::vector<BorderEdge>& come = result.change.come;
+  come.clear();
   bordering.resize(mesh.triangle_bound());
   const Regions where = region(result);
   for (std::uint32_t c = 0; c < result.is_in.size(); ++c) {
@@ -224,12 +224,13 @@ void Overlay::Parts::build_border(Result& result) {
     covers.for_each(CoverId(c), [&](TriangleId t) {
       for (unsigned corner = 0; corner < 3; ++corner) {
         const EdgeId e = Triangulation::edge(t, corner);
-        if (where.right_of(e) != 0) continue;
-        add_border(result, e);
+        if (!mesh.is_constrained(e) || where.right_of(e) != 0) continue;
+        come.push_back(border_edge(mesh, e));
+        note_bordering(e);
       }
     });
   }
-  result.change.come.assign(result.border.edges().begin(), result.border.edges().end());
+  result.border.assign(come, mesh.edge_bound());
   sum_up(result);
 }
 

@@ -116,6 +116,9 @@ struct Overlay::Parts {
   [[nodiscard]] bool may_border(EdgeId e) const {
     return (unsigned{bordering[e.index() / 3]} >> e.index() % 3 & 1U) != 0;
   }
+  void note_bordering(EdgeId e) {
+    bordering[e.index() / 3] |= static_cast<std::uint8_t>(1U << e.index() % 3);
+  }
   void add_border(Result& result, EdgeId e);
   void take_border(Result& result, EdgeId e);
   void check_border(Result& result, EdgeId e);

@@ -2,10 +2,11 @@
 #include "overlay/trace.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include "cdt/predicates.h"
-#include "overlay/flat_map.h"
+#include "overlay/numbers.h"
 
 namespace loft::overlay {
 
@@ -17,11 +18,16 @@ namespace {
 /// Walks along the borders of regions.
 class Tracer {
  public:
-  explicit Tracer(const Regions& regions) : regions_(&regions), mesh_(regions.mesh) {}
+  /// Along as many edges as that.
+  Tracer(const Regions& regions, std::size_t count)
+      : regions_(&regions),
+        mesh_(regions.mesh),
+        walk_of_(count, mesh_->edge_bound()),
+        place_of_(count, mesh_->vertex_bound()) {}
 
   /// Once around from an edge, unless that has been walked. The walk's number, or `none`.
   std::uint32_t walk(EdgeId start) {
-    if (walk_of_.find(start.index()) != FlatMap::none) return FlatMap::none;
+    if (walk_of_.find(start.index()) != Numbers::none) return Numbers::none;
     const std::uint32_t number = walk_count_++;
     path_.clear();
     EdgeId e = start;
@@ -74,8 +80,8 @@ class Tracer {
   /// Adds an edge to the walk. Where it starts from a vertex that the walk has left before, what is
   /// between is a ring.
   void step(EdgeId e) {
-    const std::uint64_t vertex = mesh_->from(e).index();
-    if (const std::uint32_t first = place_of_.find(vertex); first != FlatMap::none) cut_off(first);
+    const std::size_t vertex = mesh_->from(e).index();
+    if (const std::uint32_t first = place_of_.find(vertex); first != Numbers::none) cut_off(first);
     place_of_.set(vertex, static_cast<std::uint32_t>(path_.size()));
     path_.push_back(e);
   }
@@ -108,8 +114,8 @@ class Tracer {
   const Regions* regions_;
   const Triangulation* mesh_;
   std::uint32_t walk_count_ = 0;
-  FlatMap walk_of_;   // by edge
-  FlatMap place_of_;  // by vertex: where in path_
+  Numbers walk_of_;   // by edge
+  Numbers place_of_;  // by vertex: where in path_
   std::vector<EdgeId> path_;
   std::vector<TracedRing> rings_;
 };
@@ -117,11 +123,12 @@ class Tracer {
 /// Sorts rings into polygons.
 class Sorter {
  public:
-  explicit Sorter(const Regions& regions) : regions_(&regions), tracer_(regions) {}
+  /// Of borders of as many edges as that.
+  Sorter(const Regions& regions, std::size_t count) : regions_(&regions), tracer_(regions, count) {}
 
   std::vector<TracedPolygon> polygons(std::span<const BorderEdge> border) {
     for (const BorderEdge& edge : border)
-      if (tracer_.walk(edge.edge) != FlatMap::none) add_walk(tracer_.take_rings());
+      if (tracer_.walk(edge.edge) != Numbers::none) add_walk(tracer_.take_rings());
     settle_holes();
     for (TracedPolygon& polygon : polygons_)
       std::ranges::sort(polygon.holes,
@@ -148,7 +155,7 @@ class Sorter {
     const auto outer = std::ranges::find_if(
         rings, [&](const TracedRing& ring) { return tracer_.is_counter_clockwise(ring); });
     if (outer == rings.end()) {
-      polygon_of_.push_back(FlatMap::none);
+      polygon_of_.push_back(Numbers::none);
       holes_.push_back({walk, std::move(rings)});
       return;
     }
@@ -198,11 +205,11 @@ bool runs_on(const Triangulation& mesh, EdgeId before, EdgeId after) {
 }  // namespace
 
 std::vector<TracedPolygon> trace(const Regions& regions, std::span<const BorderEdge> border) {
-  return Sorter(regions).polygons(border);
+  return Sorter(regions, border.size()).polygons(border);
 }
 
 std::vector<TracedRing> trace_through(const Regions& regions, std::span<const BorderEdge> some) {
-  Tracer tracer(regions);
+  Tracer tracer(regions, some.size());
   for (const BorderEdge& edge : some) tracer.walk(edge.edge);
   return tracer.take_rings();
 }
