@@ -2,6 +2,7 @@
 #include "reconstruct/link/link_ends.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 #include <utility>
 
@@ -127,27 +128,26 @@ LoopWays shortened(LoopWays ways) {
   return ways;
 }
 
-/// Ends, and what goes on beside them, as one piece. None if no more than they are by themselves.
-std::optional<Replacement> join(const Region& lower, const Region& upper, const Pieces& pieces,
-                                std::span<const EndLink> links, std::span<const double> differences,
-                                std::span<const std::uint32_t> members) {
+/// Some pieces as one that is not tiled yet.
+Piece united(const Region& lower, const Region& upper, const Pieces& pieces,
+             std::span<const std::uint32_t> members) {
   Piece whole;
   whole.is_solid = pieces.pieces[members.front()].is_solid;
-  double before = 0;
   for (const std::uint32_t i : members) {
     add(whole.lower, pieces.pieces[i].lower);
     add(whole.upper, pieces.pieces[i].upper);
-    before += differences[i];
   }
   std::ranges::sort(whole.lower.loops);
   std::ranges::sort(whole.upper.loops);
   measure(lower, whole.lower);
   measure(upper, whole.upper);
-  const double most = most_difference(pieces, links, before);
+  return whole;
+}
+
+/// A piece from the ways of its ends, or from shorter ones, with no more of a difference than that.
+std::optional<Moved> move_ends(const Region& lower, const Region& upper, const Piece& whole,
+                               const LoopWays& ways, bool are_beside, double most) {
   const auto is_wanted = [&](const Registered& made) { return is_within(made.difference, most); };
-  const LoopWays ways{ways_of_ends(pieces, links, Level::lower, whole.lower.loops),
-                      ways_of_ends(pieces, links, Level::upper, whole.upper.loops)};
-  const bool are_beside = std::ranges::any_of(links, &EndLink::is_beside);
   const auto move_as_one = [&](const LoopWays& some) {
     auto made = move_by_places(lower, upper, whole, is_wanted, some);
     if (made && is_one(lower, upper, *made)) return made;
@@ -158,6 +158,44 @@ std::optional<Replacement> join(const Region& lower, const Region& upper, const 
   };
   auto moved = move_as_one(ways);
   if (!moved && are_beside) moved = move_as_one(shortened(ways));
+  return moved;
+}
+
+/// How much more of a difference some pieces have where they are than where they were moved to;
+/// infinite if that cannot be measured.
+double taken_away(const Region& lower, const Region& upper, const Pieces& pieces,
+                  std::span<const std::uint32_t> members) {
+  double sum = 0;
+  for (const std::uint32_t i : members) {
+    const Piece& piece = pieces.pieces[i];
+    if (piece.registered_difference && !piece.is_end())
+      sum += overlay_difference(lower, upper, piece) - *piece.registered_difference;
+  }
+  return sum;
+}
+
+/// Ends, and what goes on beside them, as one piece. None if no more than they are by themselves.
+/// What was moved before, without the ends, may lie where these belong: as a fork of which one
+/// branch overlaps the other's root. If no joint piece is as good, it is held against that as it
+/// was.
+std::optional<Replacement> join(const Region& lower, const Region& upper, const Pieces& pieces,
+                                std::span<const EndLink> links, std::span<const double> differences,
+                                std::span<const std::uint32_t> members) {
+  const Piece whole = united(lower, upper, pieces, members);
+  double before = 0;
+  for (const std::uint32_t i : members) before += differences[i];
+  const LoopWays ways{ways_of_ends(pieces, links, Level::lower, whole.lower.loops),
+                      ways_of_ends(pieces, links, Level::upper, whole.upper.loops)};
+  const bool are_beside = std::ranges::any_of(links, &EndLink::is_beside);
+  const auto move = [&](double difference) {
+    return move_ends(lower, upper, whole, ways, are_beside,
+                     most_difference(pieces, links, difference));
+  };
+  auto moved = move(before);
+  if (!moved) {
+    const double more = taken_away(lower, upper, pieces, members);
+    if (more > 0 && std::isfinite(more)) moved = move(before + more);
+  }
   if (!moved) return {};
   moved->piece.reason = are_beside ? LinkReason::nearest : LinkReason::predicted;
   moved->piece.bends = true;

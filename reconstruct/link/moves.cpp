@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "reconstruct/link/extract.h"
@@ -70,6 +71,15 @@ Point offset(const Piece& piece) {
 double overlap(const Piece& piece, double difference) {
   const double sum = piece.lower.area + piece.upper.area;
   return sum > 0 ? std::max(0.0, (sum - difference) / (sum + difference)) : 0;
+}
+
+double overlay_difference(const Region& lower, const Region& upper, const Piece& piece) {
+  const Extract below(lower, piece.lower.loops, piece.is_solid);
+  const Extract above(upper, piece.upper.loops, piece.is_solid);
+  const auto tiles = tile_with_crossings(below.region(), above.region(), any_number);
+  if (!tiles) return std::numeric_limits<double>::infinity();
+  const Pieces alone{{Piece{}}, std::vector<std::uint32_t>(tiles->tiles.size(), 0)};
+  return differences(below.region(), above.region(), *tiles, alone)[0];
 }
 
 std::optional<Moved> move_by_shift(const Region& lower, const Region& upper, Piece piece,

@@ -24,6 +24,11 @@ inline constexpr double least_overlap = 0.4;
 /// The share of what two footprints cover together that both cover, by the area between them.
 [[nodiscard]] double overlap(const Piece& piece, double difference);
 
+/// The area in one of a piece's footprints only, as they are. Measured on tiles that keep their
+/// crossings: without them some lie over others, and cover more.
+[[nodiscard]] double overlay_difference(const Region& lower, const Region& upper,
+                                        const Piece& piece);
+
 /// The tiles of a piece by itself, its upper part moved by its shift; and how far the two parts
 /// overlap then.
 struct Moved {

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <span>
 #include <utility>
@@ -11,7 +10,6 @@
 
 #include "mesh/vec3.h"
 #include "reconstruct/link/bounds.h"
-#include "reconstruct/link/extract.h"
 #include "reconstruct/link/moves.h"
 #include "reconstruct/link/replace.h"
 #include "reconstruct/link/separate.h"
@@ -114,17 +112,6 @@ bool is_plain_surface(const TileSet& tiles, std::span<const std::uint32_t> of_pi
   return std::ranges::adjacent_find(edges) == edges.end();
 }
 
-/// What is in one of a piece's footprints only. Measured on tiles that keep their crossings:
-/// without them some lie over others, and cover more.
-double true_difference(const Region& lower, const Region& upper, const Piece& piece) {
-  const Extract below(lower, piece.lower.loops, piece.is_solid);
-  const Extract above(upper, piece.upper.loops, piece.is_solid);
-  const auto tiles = tile_with_crossings(below.region(), above.region(), any_number);
-  if (!tiles) return std::numeric_limits<double>::infinity();
-  const Pieces alone{{Piece{}}, std::vector<std::uint32_t>(tiles->tiles.size(), 0)};
-  return differences(below.region(), above.region(), *tiles, alone)[0];
-}
-
 /// Whether a registration leaves no more than that of a difference, without going too far for it.
 bool brings_together(const Registered& made, double most_difference,
                      std::optional<double> max_shift) {
@@ -154,7 +141,7 @@ bool untangle(const Region& lower, const Region& upper, TileSet& tiles, Pieces& 
     if (twice_euler(lower, upper, piece, tiles, tiles_of_apart[i]) >= 0 ||
         !is_plain_surface(tiles, tiles_of_apart[i]))
       continue;
-    if (is_within(torn_overlap, overlap(piece, true_difference(lower, upper, piece)))) continue;
+    if (is_within(torn_overlap, overlap(piece, overlay_difference(lower, upper, piece)))) continue;
     const auto is_wanted = [&](const Registered& made) {
       return brings_together(made, most_left * before[i], max_shift) &&
              twice_euler(lower, upper, piece, made.tiles, all_of(made.tiles)) == 0;

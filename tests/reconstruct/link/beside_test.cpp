@@ -34,6 +34,17 @@ std::vector<Slice> fork_with_a_stub(double gap) {
           {8, {round(1.6, {-4.5, 0.4}), rod}}};
 }
 
+/// An angle with two legs, of which one becomes a branch that hardly overlaps it, and the other a
+/// twig beside its end. Without the twig all of the angle would be drawn over to the branch.
+std::vector<Slice> legs_that_part(double gap) {
+  Contour branch = round(1, {0, 0});
+  for (Point& p : branch.points) p = {3.2 * p.x - 12.5, 1.8 * p.y + 2};
+  const Contour angle{.points = {{4, 4}, {-10, 4}, {-10, 0}, {0, 0}, {0, -10}, {4, -10}}};
+  return {{0, {stacks::square(3, {1, 1})}},
+          {4, {angle}},
+          {8, {std::move(branch), round(1.6, {2, -11.6 - gap})}}};
+}
+
 Measures measures_of(const std::vector<Slice>& slices, const Options& options = {}) {
   const Reconstructed made = reconstruct(slices, options);
   EXPECT_EQ(solids::faults(made.surface), "");
@@ -77,8 +88,8 @@ TEST(Beside, OnTheOtherSideOfAStackItIsTheSame) {
 }
 
 TEST(Beside, WhicheverWayAStackIsTurnedItIsTheSame) {
-  for (const double gap : {0.05, 0.6, 1.3}) {
-    const std::vector<Slice> slices = fork_with_a_stub(gap);
+  for (const auto& slices : {fork_with_a_stub(0.05), fork_with_a_stub(0.6), fork_with_a_stub(1.3),
+                             legs_that_part(0.3)}) {
     const Measures there = measures_of(slices);
     for (const double angle : {0.3, 1.1, 2.9, 4.4}) {
       SCOPED_TRACE(angle);
@@ -145,8 +156,19 @@ TEST(Beside, OrdersAndTheFarthestShiftKeepItApart) {
   EXPECT_EQ(measures_of(slices, {.max_shift = 1.0}).components, 3U);
 }
 
+TEST(Beside, ATwigIsJoinedToALegThatAnotherBranchWouldTake) {
+  for (const double gap : {0.05, 0.5}) {
+    SCOPED_TRACE(gap);
+    const Measures joined = measures_of(legs_that_part(gap));
+    EXPECT_EQ(joined.components, 1U);
+    EXPECT_EQ(joined.genus, 0);
+    EXPECT_GT(joined.volume, measures_of(legs_that_part(gap), {.link = LinkRule::overlap}).volume);
+  }
+}
+
 TEST(Beside, EditsLeadToTheSameSurfaceAsTheWholeStack) {
   EXPECT_EQ(edits::fault_of_edits(fork_with_a_stub(0.4), 7, 12), "");
+  EXPECT_EQ(edits::fault_of_edits(legs_that_part(0.3), 8, 12), "");
 }
 
 }  // namespace
