@@ -348,6 +348,17 @@ TEST(Smooth, AFanOfThinTilesBendsEvenly) {
   EXPECT_EQ(solids::faults(smooth()), "");
 }
 
+/// Each split in a fan was followed by flips of a good part of it.
+TEST(Smooth, AWideFanTakesAFixedNumberOfStepsAPoint) {
+  for (const int few : {3, 12}) {
+    const std::vector<Slice> slices{{0, {stacks::circle(4000, 10)}},
+                                    {1, {stacks::circle(few, 9)}},
+                                    {2, {stacks::circle(4000, 10)}}};
+    const cdt::Effort effort(250 * 8000);  // 194 and 175 are taken
+    EXPECT_NO_THROW(reconstruct(slices, {.smooth = true, .threads = 1})) << few;
+  }
+}
+
 TEST(Smooth, AnEditOfASliceChangesFourSlabs) {
   auto slices = stacks::sphere(12, 50);
   const auto before = slabs(make(slices, true));
