@@ -57,6 +57,10 @@ constexpr double least_cosine_of_turn = 0.5;
 /// with thousands of edges flips would go on through all of them.
 constexpr std::size_t most_looks = 128;
 
+/// Around a node with more tiles nothing is flipped: each split would flip most of the fan, and
+/// what comes of it meets itself. Of 26 stacks none has such a node where it bends.
+constexpr std::uint32_t widest_fan = 64;
+
 /// Vertices go beyond the surface by so much of what their edges stay short of it in the mean. For
 /// a round strip whose rows are halved once 2 would make the volume right; edges along a strip stay
 /// short by nothing.
@@ -128,6 +132,7 @@ class Bending {
         queue_(Nearer{this}) {
     for (const OutlinePoint& point : outlines) facing_.push_back(unit(point.facing));
     facing_.resize(contour_count_ + plain.inner.size());
+    hold_wide_fans();
   }
 
   BentTiles run() {
@@ -190,6 +195,15 @@ class Bending {
       edges_.emplace_back();
     }
     return edges_[number];
+  }
+
+  void hold_wide_fans() {
+    std::vector<std::uint32_t> tiles_at(facing_.size());
+    for (const Tile& tile : bent_.tiles.tiles)
+      for (const std::uint32_t node : tile.nodes) ++tiles_at[node];
+    firm_.resize(tiles_at.size());
+    for (std::uint32_t node = 0; node < tiles_at.size(); ++node)
+      if (tiles_at[node] > widest_fan) firm_[node] = true;
   }
 
   /// The vertices that forks, ends and crossings have already.
@@ -277,7 +291,7 @@ class Bending {
     bent_.moves.push_back({{a, b}, bent.start, bent.way, bent.straight});
     freedom_.add_middle(a, b, bent.loose);
     facing_.push_back(facing(a, b));
-    if (!firm_.empty()) firm_.push_back(firm_[a] || firm_[b]);
+    firm_.push_back(firm_[a] || firm_[b]);
     return contour_count_ + static_cast<std::uint32_t>(bent_.moves.size()) - 1;
   }
 
@@ -308,6 +322,7 @@ class Bending {
   }
 
   void flip_next() {
+    cdt::spend();
     const std::uint32_t half = doubtful_.back();
     doubtful_.pop_back();
     if (!may_flip(half) || !(gain_of_flip(half) > 0)) return;
@@ -337,7 +352,7 @@ class Bending {
   }
 
   [[nodiscard]] bool is_firm(std::uint32_t a, std::uint32_t b) const {
-    return !firm_.empty() && (firm_[a] || firm_[b]);
+    return firm_[a] || firm_[b];
   }
 
   [[nodiscard]] Vec3 normal(std::uint32_t a, std::uint32_t b, std::uint32_t c,

@@ -25,6 +25,10 @@ constexpr double straightness = 0.02;
 /// A piece of whose edges at least that share is loose is as free as these.
 constexpr double least_loose = 0.75;
 
+/// A piece whose outlines turn by at least that share at round points is as free as these; one that
+/// turns at corners alone is a polyhedron.
+constexpr double least_round = 0.1;
+
 /// The links of a slab, against the corners of the slices before and after it.
 class Links {
  public:
@@ -74,6 +78,7 @@ Freedom::Freedom(const BentSlab& slab, std::span<const OutlinePoint> outlines, c
   find_roundness(outlines, tiles);
   find_looseness(slab, outlines, tiles);
   weigh_pieces(slab, tiles);
+  hold_polyhedra(slab, outlines);
 }
 
 /// An inner node is as round as the contour vertices are that it has tiles with.
@@ -141,6 +146,26 @@ void Freedom::weigh_pieces(const BentSlab& slab, const TileSet& tiles) {
   }
   for (std::size_t i = 0; i < sums.size(); ++i)
     of_piece_.push_back(counts[i] > 0 ? std::min(sums[i] / counts[i] / least_loose, 1.0) : 1);
+}
+
+void Freedom::hold_polyhedra(const BentSlab& slab, std::span<const OutlinePoint> outlines) {
+  for (std::size_t i = 0; i < of_piece_.size(); ++i) {
+    double turns = 0;
+    double round_turns = 0;
+    const auto add = [&](const Region& region, const Footprint& footprint, std::size_t first) {
+      for (const std::uint32_t loop : footprint.loops) {
+        for (const std::uint32_t point : region.loop(loop)) {
+          const double turn = outlines[first + point].turn;
+          turns += turn;
+          round_turns += turn * roundness_[first + point];
+        }
+      }
+    };
+    const Piece& piece = slab.pieces.pieces[i];
+    add(slab.lower, piece.lower, 0);
+    add(slab.upper, piece.upper, slab.lower.points.size());
+    if (turns > 0) of_piece_[i] *= std::min(round_turns / turns / least_round, 1.0);
+  }
 }
 
 /// What came from an edge is as loose as it is; what lies in a tile, as the middles that it joins.

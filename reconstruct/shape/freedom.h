@@ -30,7 +30,8 @@ struct BentSlab {
 /// - So does an edge with such links in the tiles on both its sides: it lies in a face.
 /// - Where most edges of a piece are straight, the others are less free; not at all if all are.
 /// - Distances to a slice do not change evenly beside a corner of its outline, even where every
-///   face is flat: edges are the less free the sharper the outlines turn at their ends.
+///   face is flat: edges are the less free the sharper the outlines turn at their ends. A piece
+///   whose outlines turn at corners alone, but for a tenth, is a polyhedron: less free as well.
 ///
 /// In slices of a smooth shape vertices are anywhere: links hardly ever go on straight.
 /// Knows the nodes of the plain tiles, and those that are added in the middles of edges.
@@ -64,6 +65,7 @@ class Freedom {
   void find_looseness(const BentSlab& slab, std::span<const OutlinePoint> outlines,
                       const TileSet& tiles);
   void weigh_pieces(const BentSlab& slab, const TileSet& tiles);
+  void hold_polyhedra(const BentSlab& slab, std::span<const OutlinePoint> outlines);
 
   std::uint32_t contour_count_;
   std::uint32_t plain_count_;

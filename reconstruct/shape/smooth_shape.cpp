@@ -32,9 +32,19 @@ struct Bounds {
   double lowest;
   double highest;
 };
-constexpr Bounds with_trend{0.1, 0.75};
+constexpr Bounds with_trend{0.1, 0.9};
 constexpr Bounds single{0.7, 0.75};
 constexpr Bounds unknown{0.5, 0.5};
+
+/// A trend that leads beyond the next slice, in which the part is not, is the less believed the
+/// further it does: that share of the slab beyond, the part ends as high as one that is new.
+constexpr double most_beyond = 0.25;
+
+/// How high an end may be, as a share of the slab, where its trend leads to that height.
+double highest_by_trend(double height) {
+  const double doubt = std::clamp((height - 1) / most_beyond, 0.0, 1.0);
+  return with_trend.highest - doubt * (with_trend.highest - single.highest);
+}
 
 /// The steepest trend of an end, in depths: beyond, its shape hardly changes, but all that is left
 /// of its height is rounding.
@@ -147,6 +157,7 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
   const double height = slices[2]->z - slices[1]->z;
   const SliceShape* before = slices[slice == 1 ? 0 : 3];
   Bounds bounds = before == nullptr ? unknown : single;
+  bool has_trend = false;
   if (before != nullptr && !before->distance.is_empty()) {
     const double gap = std::abs(slice_->z - before->z);
     const bool is_solid = slice_->distance.at(middle).distance < 0;
@@ -154,10 +165,11 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
     if (there > 0) {
       trend_ = std::clamp((depth * depth - there * there - gap * gap) / gap, -most_trend * depth,
                           most_trend * depth);
-      bounds = with_trend;
+      has_trend = true;
     }
   }
   const double top = (trend_ + std::hypot(trend_, 2 * depth)) / 2;
+  if (has_trend) bounds = {with_trend.lowest, highest_by_trend(top / height)};
   scale_ = std::clamp(top, bounds.lowest * height, bounds.highest * height) / top;
 }
 

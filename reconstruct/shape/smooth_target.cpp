@@ -78,6 +78,49 @@ std::vector<Depth> find_depths(const Region& lower, const Region& upper, const S
   return deepest;
 }
 
+/// A circle around the contours of a piece in one slice.
+struct Circle {
+  Point middle;
+  double radius = 0;
+};
+
+Circle circle_around(const Region& region, const Footprint& footprint) {
+  Circle circle{footprint.centroid};
+  for (const std::uint32_t loop : footprint.loops) {
+    for (const std::uint32_t i : region.loop(loop)) {
+      const Point p = region.points[i];
+      circle.radius =
+          std::max(circle.radius, std::hypot(p.x - circle.middle.x, p.y - circle.middle.y));
+    }
+  }
+  return circle;
+}
+
+/// How far a place is outside of the parts of a slice, or of its cavities.
+double distance_outside(const SliceShape& slice, bool is_solid, Point place) {
+  const double distance = slice.distance.at(place).distance;
+  return is_solid ? distance : -distance;
+}
+
+/// The slices that tell how a piece goes: not one in which it has not begun yet, or has ended.
+Surroundings known_of(const Piece& piece, const BentSlab& slab, Point way) {
+  Surroundings known = slab.slices;
+  const double height = slab.upper.z - slab.lower.z;
+  const auto look = [&](const SliceShape*& beyond, const SliceShape& slice, const Region& region,
+                        Level level) {
+    if (beyond == nullptr || beyond->distance.is_empty()) return;
+    const auto [middle, radius] = circle_around(region, piece.footprint(level));
+    // What is hollow there, or bent around it, may be so beyond as well.
+    if (distance_outside(slice, piece.is_solid, middle) >= 0) return;
+    const double share = (beyond->z - slice.z) / height;
+    const Point there{middle.x + share * way.x, middle.y + share * way.y};
+    if (distance_outside(*beyond, piece.is_solid, there) >= radius) beyond = nullptr;
+  };
+  look(known[0], *slab.slices[1], slab.lower, Level::lower);
+  look(known[3], *slab.slices[2], slab.upper, Level::upper);
+  return known;
+}
+
 }  // namespace
 
 Vec3 between_slices(double bottom, double top, const Vec3& place, double z) {
@@ -100,7 +143,7 @@ SmoothTarget::SmoothTarget(const BentSlab& slab, const TileSet& tiles, double ne
     if (!piece.is_end()) {
       // What goes several ways at once is bent over each place as it is.
       const Point way = piece.registered_difference ? Point{} : piece.shift;
-      shapes_[i] = SmoothPassage(slices, {-way.x, -way.y});
+      shapes_[i] = SmoothPassage(known_of(piece, slab, way), {-way.x, -way.y});
     } else if (depths[i].depth > 0) {
       shapes_[i] = SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place,
                              depths[i].depth, piece.lean);

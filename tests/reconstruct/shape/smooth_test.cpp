@@ -326,6 +326,90 @@ std::map<std::uint32_t, std::set<std::set<OpenMesh::Vec3d>>> slabs(const Surface
   return found;
 }
 
+/// The triangles of a slab that are not in one of its slices.
+std::set<std::set<OpenMesh::Vec3d>> between_slices_of(const Surface& surface, std::uint32_t slab) {
+  std::set<std::set<OpenMesh::Vec3d>> found = slabs(surface)[slab];
+  std::erase_if(found, [](const std::set<OpenMesh::Vec3d>& corners) {
+    return std::ranges::all_of(
+        corners, [&](const OpenMesh::Vec3d& p) { return p[2] == (*corners.begin())[2]; });
+  });
+  return found;
+}
+
+// A slice in which a part is not yet does not tell how the part goes on from where it begins.
+TEST(Smooth, APartBendsWhereItBeginsAsAtTheEndOfTheStack) {
+  const auto ball = stacks::sphere(8, 60);
+  auto after_another = ball;
+  after_another.insert(after_another.begin(), {ball.front().z - 0.25, {stacks::square(1, {9, 9})}});
+  const auto expected = between_slices_of(make(ball, true), 0);
+  EXPECT_EQ(between_slices_of(make(after_another, true), 1), expected);
+  EXPECT_NE(between_slices_of(make(ball, false), 0), expected);
+}
+
+// The ball's top is 0.85 of a slab above its last slice; the rod beside it goes on.
+TEST(Smooth, AnEndIsAsHighAsItsTrendLeads) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 6; ++i) {
+    const double z = 2.0 * i + 0.3;
+    slices.push_back({z, {stacks::circle(20, 1, {40, 0})}});
+    if (z < 10) slices.back().contours.push_back(stacks::circle(80, std::sqrt(100 - z * z)));
+  }
+  const Surface bent = make(slices, true);
+  EXPECT_EQ(solids::faults(bent), "");
+  double top = 0;
+  for (const auto v : bent.vertices())
+    if (bent.point(v)[0] < 20) top = std::max(top, bent.point(v)[2]);
+  EXPECT_NEAR(top, 10, 0.05);
+}
+
+/// Slices of a box that stands on a corner, turned about it, between the same two heights.
+std::vector<Slice> tilted_box(std::size_t slabs, double turn) {
+  const auto corner = [&](unsigned bits) {
+    const Vec3 p{bits & 1U ? 3.0 : -3.0, bits & 2U ? 2.0 : -2.0, bits & 4U ? 1.5 : -1.5};
+    const Vec3 q{p[0] * std::cos(turn) - p[1] * std::sin(turn),
+                 p[0] * std::sin(turn) + p[1] * std::cos(turn), p[2]};
+    return Vec3{q[0], q[1] * 0.8 - q[2] * 0.6, q[1] * 0.6 + q[2] * 0.8};
+  };
+  double top = 0;
+  for (unsigned bits = 0; bits < 8; ++bits) top = std::max(top, corner(bits)[2]);
+  std::vector<Slice> slices;
+  for (std::size_t i = 0; i <= slabs; ++i) {
+    const double z = 0.9 * top * (2 * static_cast<double>(i) / static_cast<double>(slabs) - 1);
+    std::vector<cdt::Point> points;
+    for (unsigned bits = 0; bits < 8; ++bits) {
+      for (unsigned axis = 1; axis < 8; axis *= 2) {
+        const Vec3 a = corner(bits & ~axis);
+        const Vec3 b = corner(bits | axis);
+        if ((bits & axis) != 0 || (a[2] < z) == (b[2] < z)) continue;
+        const Vec3 p = along(a, (z - a[2]) / (b[2] - a[2]), minus(b, a));
+        points.push_back({p[0], p[1]});
+      }
+    }
+    cdt::Point middle{};
+    for (const cdt::Point p : points)
+      middle = {middle.x + p.x / static_cast<double>(points.size()),
+                middle.y + p.y / static_cast<double>(points.size())};
+    std::ranges::sort(points, {}, [&](const cdt::Point& p) {
+      return std::atan2(p.y - middle.y, p.x - middle.x);
+    });
+    slices.push_back({z, {{points, ""}}});
+  }
+  return slices;
+}
+
+// Where an edge of the box is between two slices, links do not go on straight.
+TEST(Smooth, ABoxOnItsCornerIsHardlyBent) {
+  double plain_off = 0;
+  double bent_off = 0;
+  for (double turn = 0.1; turn < 1.5; turn += 0.2) {
+    const auto slices = tilted_box(12, turn);
+    const double exact = volume(make(tilted_box(12 * 50, turn), false));
+    plain_off += std::abs(volume(make(slices, false)) - exact);
+    bent_off += std::abs(volume(make(slices, true)) - exact);
+  }
+  EXPECT_LT(bent_off, 1.07 * plain_off);
+}
+
 // Discs that do not overlap their neighbours, one upon the other but for a shear.
 TEST(Smooth, ASlantedRodStaysStraight) {
   std::vector<Slice> slices;
@@ -346,6 +430,17 @@ TEST(Smooth, AFanOfThinTilesBendsEvenly) {
     return reconstruct(slices, {.smooth = true, .threads = 1}).surface;
   };
   EXPECT_EQ(solids::faults(smooth()), "");
+}
+
+/// Each split in a fan was followed by flips of a good part of it.
+TEST(Smooth, AWideFanTakesAFixedNumberOfStepsAPoint) {
+  for (const int few : {3, 12}) {
+    const std::vector<Slice> slices{{0, {stacks::circle(4000, 10)}},
+                                    {1, {stacks::circle(few, 9)}},
+                                    {2, {stacks::circle(4000, 10)}}};
+    const cdt::Effort effort(250 * 8000);  // 194 and 175 are taken
+    EXPECT_NO_THROW(reconstruct(slices, {.smooth = true, .threads = 1})) << few;
+  }
 }
 
 TEST(Smooth, AnEditOfASliceChangesFourSlabs) {
