@@ -14,8 +14,10 @@ namespace loft::io {
 
 namespace {
 
+/// Empty where there is none, as where it is null, or a number that is not finite.
 std::string text_of_member(std::optional<JsonReader> member) {
-  return member ? compact_json(member->text()) : std::string();
+  std::string text = member ? compact_json(member->text()) : std::string();
+  return text == "null" ? std::string() : text;
 }
 
 void add_shape(Feature& feature, GeoShape& shape) {

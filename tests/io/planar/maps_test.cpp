@@ -143,6 +143,19 @@ TEST(Features, WhatIsWrittenIsReadBackExactly) {
   }
 }
 
+// Found by fuzzing: as an id, such a word was written as null, and read back as none.
+TEST(Features, NullAndWhatIsNotFiniteAreNoIdsAndNoProperties) {
+  for (const std::string word : {"null", "NaN", "Infinity", "-Infinity", "infinity"}) {
+    const Map map = read(R"({"type":"Feature","id":)" + word + R"(,"properties":)" + word +
+                         R"(,"geometry":{"type":"Point","coordinates":[1,2]}})");
+    EXPECT_EQ(map.features.at(0).id, "") << word;
+    EXPECT_EQ(map.features.at(0).properties, "") << word;
+    std::ostringstream out;
+    write_features_geojson(out, map);
+    EXPECT_EQ(read(out.str()), map) << word << ": " << out.str();
+  }
+}
+
 TEST(Features, NameFeaturePartAndPoint) {
   EXPECT_EQ(message_of<InputError>([] {
               static_cast<void>(read(R"({"type":"FeatureCollection","features":[3,
