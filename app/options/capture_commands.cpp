@@ -33,7 +33,7 @@ void add_address_options(CLI::App& sub, Command& command) {
          "Unit of the input, for glTF's metres (default mm): " + std::string(io::unit_names))
       ->type_name("UNIT")
       ->check(CLI::Validator(complain_of_unit, ""));
-  sub.add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(sub, command.quiet);
 }
 
 }  // namespace
@@ -182,7 +182,7 @@ CLI::App* add_live(CLI::App& app, LiveCommand& command) {
   sub->add_option("--host", command.host,
                   "Address to listen on (default 127.0.0.1: this machine only)")
       ->type_name("ADDRESS");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   sub->footer(
       "Open the address that it prints; Ctrl-C ends it. In the page, ? lists the keys; T shows "
       "the\n"
@@ -201,7 +201,7 @@ CLI::App* add_session(CLI::App& app, SessionCommand& command) {
     CLI::App* one = sub->add_subcommand(name, what);
     one->add_option("FILE", command.file, "Session file")->required();
     one->callback([&command, kind] { command.what = kind; });
-    one->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+    add_quiet_option(*one, command.quiet);
     return one;
   };
   add("list", "Show its edits, a line each, and how it was begun", SessionCommand::What::list)

@@ -82,8 +82,8 @@ CLI::App* add_triangulate(CLI::App& app, TriangulateCommand& command) {
                   "Points and polylines closer than that become one, default 0")
       ->type_name("DISTANCE")
       ->check(CLI::Validator(complain_of_epsilon, ""));
-  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_report_option(*sub, command.json);
+  add_quiet_option(*sub, command.quiet);
   begin_group(*sub, "Drawing (SVG)");
   sub->add_flag_callback(
       "--no-fill", [&command] { command.drawing.has_fill = false; }, "Leave regions uncoloured");

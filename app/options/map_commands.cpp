@@ -89,8 +89,8 @@ CLI::App* add_overlay(CLI::App& app, OverlayCommand& command) {
                   "Output file, " + io::map_output_extensions() + "; may be repeated")
       ->type_name("OUT")
       ->allow_extra_args(false);
-  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_report_option(*sub, command.json);
+  add_quiet_option(*sub, command.quiet);
   add_width_option(*sub, command.drawing);
   sub->footer(
       "A file's layer is called as the file is, without folder and extension.\n"
@@ -135,7 +135,7 @@ CLI::App* add_coverage(CLI::App& app, CoverageCommand& command) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   sub->add_flag("--json", command.json, "Print a report as one JSON object instead of the table");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   add_width_option(*sub, command.drawing);
   sub->footer(
       "What one area alone claims stays its own, with its properties.\n\n"
@@ -169,7 +169,7 @@ CLI::App* add_query(CLI::App& app, QueryCommand& command) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   add_width_option(*sub, command.drawing);
   sub->footer(
       "Of points: x, y, the areas that they are inside of, those on whose border they are.\n"
@@ -233,7 +233,7 @@ CLI::App* add_path(CLI::App& app, PathCommand& command) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   add_width_option(*sub, command.drawing);
   sub->footer(
       "Polygons are obstacles unless a layer says otherwise, and lines are walls. Paths may touch\n"
@@ -281,7 +281,7 @@ CLI::App* add_classify(CLI::App& app, ClassifyCommand& command) {
       ->type_name("OUT")
       ->allow_extra_args(false);
   sub->add_flag("--json", command.json, "Print a report as one JSON object instead of the table");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   add_width_option(*sub, command.drawing);
   sub->footer(
       "A class is left, right or on for each line, in their order, parted by semicolons. Of a "
@@ -371,7 +371,7 @@ CLI::App* add_field(CLI::App& app, FieldCommand& command) {
       ->check(CLI::Validator(complain_of_distance, ""))
       ->excludes(grid);
   sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout instead");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   add_width_option(*sub, command.drawing);
   sub->add_flag("--triangles", command.triangles, "Draw the triangles, too");
   sub->footer(

@@ -11,6 +11,14 @@ void begin_group(CLI::App& sub, const std::string& heading) {
   sub.option_defaults()->group(heading);
 }
 
+void add_quiet_option(CLI::App& sub, bool& quiet) {
+  sub.add_flag("-q,--quiet", quiet, "Say nothing but errors");
+}
+
+void add_report_option(CLI::App& sub, bool& json) {
+  sub.add_flag("--json", json, "Print a report as one JSON object on stdout");
+}
+
 void add_label_options(CLI::App& sub, std::vector<std::string>& only,
                        std::vector<std::string>& except) {
   begin_group(sub, "Labels");

@@ -19,6 +19,10 @@ inline constexpr const char* server_heading = "Server";
 /// Options that are added to a command from here on stand under that heading in its help.
 void begin_group(CLI::App& sub, const std::string& heading);
 
+/// `--quiet`.
+void add_quiet_option(CLI::App& sub, bool& quiet);
+/// `--json` of commands that report at the end.
+void add_report_option(CLI::App& sub, bool& json);
 /// Which labels.
 void add_label_options(CLI::App& sub, std::vector<std::string>& only,
                        std::vector<std::string>& except);

@@ -78,9 +78,9 @@ CLI::App* add_reconstruct(CLI::App& app, ReconstructCommand& command) {
       ->type_name("FILE");
   sub->add_flag("--strict", command.strict,
                 "Exit with 3 if no surface could be made of a label (the others are written)");
-  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
+  add_report_option(*sub, command.json);
   sub->add_flag("--list-slabs", command.slabs, "List all slabs and their links in it");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   sub->add_option_function<std::string>(
          "--format", [&command](const std::string&) { command.is_neuroglancer = true; },
          "Outputs are folders of meshes for Neuroglancer (neuroglancer), as precomputed://OUT; "
@@ -167,7 +167,7 @@ CLI::App* add_convert(CLI::App& app, ConvertCommand& command) {
                   "Output file, " + loft::io::stack_writer_extensions())
       ->required()
       ->type_name("OUT");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   add_label_options(*sub, command.only, command.except);
   add_read_options(*sub, command.read);
   begin_group(*sub, "Slices");
@@ -194,8 +194,8 @@ CLI::App* add_join(CLI::App& app, JoinCommand& command) {
                   "PLY file: the same bytes as of the whole stack at once")
       ->required()
       ->type_name("OUT");
-  sub->add_flag("--json", command.json, "Print a report as one JSON object on stdout");
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_report_option(*sub, command.json);
+  add_quiet_option(*sub, command.quiet);
   sub->footer(
       "Parts say what stack and options they are of; those that do not fit, are missing, twice "
       "there\n"
@@ -229,7 +229,7 @@ CLI::App* add_slice(CLI::App& app, SliceCommand& command) {
          "Direction that slices are across and heights along (default 0,0,1)")
       ->type_name("X,Y,Z")
       ->check(CLI::Validator(complain_of_direction, ""));
-  sub->add_flag("-q,--quiet", command.quiet, "Say nothing but errors");
+  add_quiet_option(*sub, command.quiet);
   sub->footer(
       "Examples:\n"
       "  loft slice bunny.ply -o bunny.ndjson --gap 0.5\n"
