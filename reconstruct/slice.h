@@ -14,7 +14,7 @@ namespace loft {
 /// means nothing, and nothing is asked of it: cleaning sorts out what it encloses.
 struct Contour {
   std::vector<cdt::Point> points;
-  std::string label;  ///< the structure it belongs to; empty where the stack has no labels
+  std::string label = {};  ///< the structure it belongs to; empty where the stack has no labels
   /// Where it comes from in its file, as messages say it: `ROI 3 contour 12`; may be empty.
   std::string source = {};
   /// Where its points are in the world, as the file has them, where a WorldFrame would only come
