@@ -434,7 +434,7 @@ TEST(Smooth, AFanOfThinTilesBendsEvenly) {
 
 /// Each split in a fan was followed by flips of a good part of it.
 TEST(Smooth, AWideFanTakesAFixedNumberOfStepsAPoint) {
-  for (const int few : {3, 12}) {
+  for (const std::size_t few : {3U, 12U}) {
     const std::vector<Slice> slices{{0, {stacks::circle(4000, 10)}},
                                     {1, {stacks::circle(few, 9)}},
                                     {2, {stacks::circle(4000, 10)}}};
