@@ -110,6 +110,7 @@ class Rounds {
 /// first, and then inserted in rounds. Returns the vertex of each point.
 std::vector<VertexId> Triangulation::insert_in_rounds(std::span<const Point> points) {
   const std::vector<Stop> stops = along_curve(points);
+  if (points.size() > points_.size()) reserve(points_.size() + points.size());
   const auto first = static_cast<std::uint32_t>(points_.size());
   std::vector<VertexId> vertices(points.size());
   for (const Stop& stop : stops) {
@@ -164,7 +165,10 @@ std::vector<ConstraintId> Triangulation::insert(std::span<const Polyline> polyli
     describe(ids.back(), {first, polyline.points.size()}, polyline.ends);
     first += polyline.points.size();
   }
-  for (const ConstraintId id : ids) lay_all(id);
+  std::vector<ConstraintId> along_memory = ids;
+  if (epsilon_ == 0)  // else what is merged depends on the order
+    std::ranges::sort(along_memory, {}, [this](ConstraintId id) { return first_vertex(id); });
+  for (const ConstraintId id : along_memory) lay_all(id);
   if (known_snaps > 0) {
     for (const ConstraintId id : ids) note_edited(id);
     straighten(known_snaps);

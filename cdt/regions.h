@@ -18,22 +18,38 @@ template <class Value, class Cross>
   std::vector<Value> values(mesh.triangle_bound(), outside);
   if (mesh.triangle_count() == 0) return values;
   std::vector<bool> is_reached(mesh.triangle_bound());
-  std::vector<TriangleId> front{Triangulation::triangle(mesh.edge(Triangulation::infinite))};
-  is_reached[front.front().index()] = true;
-  while (!front.empty()) {
-    const TriangleId t = front.back();
-    front.pop_back();
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const EdgeId e = Triangulation::edge(t, corner);
-      const TriangleId beyond = Triangulation::triangle(mesh.twin(e));
-      if (is_reached[beyond.index()]) continue;
-      is_reached[beyond.index()] = true;
+  std::vector<TriangleId> front;
+  std::vector<EdgeId> fences;  // constrained, from the side that was reached
+  const auto reach = [&](TriangleId t, const Value& value) {
+    is_reached[t.index()] = true;
+    values[t.index()] = value;
+    front.push_back(t);
+  };
+  const auto is_reached_beyond = [&](EdgeId e) {
+    return is_reached[Triangulation::triangle(mesh.twin(e)).index()];
+  };
+  reach(Triangulation::triangle(mesh.edge(Triangulation::infinite)), outside);
+  while (true) {
+    // All that has the same value first: so few edges are crossed.
+    while (!front.empty()) {
+      const TriangleId t = front.back();
+      front.pop_back();
       const Value here = values[t.index()];
-      values[beyond.index()] = mesh.is_constrained(e) ? cross(e, here) : here;
-      front.push_back(beyond);
+      for (unsigned corner = 0; corner < 3; ++corner) {
+        const EdgeId e = Triangulation::edge(t, corner);
+        if (is_reached_beyond(e)) continue;
+        if (mesh.is_constrained(e))
+          fences.push_back(e);
+        else
+          reach(Triangulation::triangle(mesh.twin(e)), here);
+      }
     }
+    while (!fences.empty() && is_reached_beyond(fences.back())) fences.pop_back();
+    if (fences.empty()) return values;
+    const EdgeId e = fences.back();
+    const Value here = values[Triangulation::triangle(e).index()];
+    reach(Triangulation::triangle(mesh.twin(e)), cross(e, here));
   }
-  return values;
 }
 
 /// Chooses among constraints.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <algorithm>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -19,6 +21,12 @@ class FlatMap {
   void clear() {
     slots_.assign(slots_.size(), Slot());
     size_ = 0;
+  }
+
+  /// Makes room for that many keys, where there are none yet.
+  void reserve(std::size_t count) {
+    if (size_ == 0 && count > 0)
+      slots_.assign(std::bit_ceil(std::max<std::size_t>(2 * count, 16)), Slot());
   }
 
   /// The number of a key; `none` if it has none.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -20,6 +21,7 @@ class ListsByCover {
     covers_.clear();
     links_.clear();
     first_.clear();
+    counts_.clear();
   }
 
   /// Makes room. What is new has no layer.
@@ -27,14 +29,18 @@ class ListsByCover {
     covers_.resize(triangles, CoverId(0));
     links_.resize(triangles);
     first_.resize(covers, none);
+    counts_.resize(covers);
   }
 
   void set(cdt::TriangleId t, CoverId cover) {
     if (t.index() >= covers_.size() || covers_[t.index()] == cover) return;
     unlink(t.index());
     covers_[t.index()] = cover;
-    if (cover.index() != 0) link(t.index(), first_[cover.index()]);
+    if (cover.index() != 0) link(t.index(), cover);
   }
+
+  /// How many triangles a cover has, which is not that without a layer.
+  [[nodiscard]] std::size_t count(CoverId cover) const { return counts_[cover.index()]; }
 
   template <class Visit>
   void for_each(CoverId cover, Visit visit) const {
@@ -49,7 +55,9 @@ class ListsByCover {
     std::uint32_t next = none;
   };
 
-  void link(std::uint32_t t, std::uint32_t& first) {
+  void link(std::uint32_t t, CoverId cover) {
+    ++counts_[cover.index()];
+    std::uint32_t& first = first_[cover.index()];
     links_[t] = {none, first};
     if (first != none) links_[first].before = t;
     first = t;
@@ -57,6 +65,7 @@ class ListsByCover {
 
   void unlink(std::uint32_t t) {
     if (covers_[t].index() == 0) return;
+    --counts_[covers_[t].index()];
     const auto [before, next] = links_[t];
     (before == none ? first_[covers_[t].index()] : links_[before].next) = next;
     if (next != none) links_[next].before = before;
@@ -64,7 +73,8 @@ class ListsByCover {
 
   std::vector<CoverId> covers_;
   std::vector<Links> links_;
-  std::vector<std::uint32_t> first_;  // by cover
+  std::vector<std::uint32_t> first_;   // by cover
+  std::vector<std::uint32_t> counts_;  // by cover
 };
 
 }  // namespace loft::overlay

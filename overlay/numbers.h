@@ -19,7 +19,10 @@ class Numbers {
   /// About `expected` of `bound`. Cost: O(expected).
   Numbers(std::size_t expected, std::size_t bound) {
     constexpr std::size_t few = 16;
-    if (bound / few < expected) each_.assign(bound, none);
+    if (bound / few < expected)
+      each_.assign(bound, none);
+    else
+      some_.reserve(expected);
   }
 
   /// The number of an edge or a vertex; `none` if it has none.

@@ -215,23 +215,60 @@ void Overlay::Parts::check_borders(Result& result, TriangleId t) {
 
 /// All of a result's border, which is in `come` then, as what there was is in `gone`.
 void Overlay::Parts::build_border(Result& result) {
-  std::vector<BorderEdge>& come = result.change.come;
-  come.clear();
   bordering.resize(mesh.triangle_bound());
-  const Regions where = region(result);
-  for (std::uint32_t c = 0; c < result.is_in.size(); ++c) {
-    if (result.is_in[c] == 0) continue;
-    covers.for_each(CoverId(c), [&](TriangleId t) {
-      for (unsigned corner = 0; corner < 3; ++corner) {
-        const EdgeId e = Triangulation::edge(t, corner);
-        if (!mesh.is_constrained(e) || where.right_of(e) != 0) continue;
-        come.push_back(border_edge(mesh, e));
-        note_bordering(e);
-      }
-    });
-  }
-  result.border.assign(come, mesh.edge_bound());
+  covers.grow(mesh.triangle_bound(), windings.cover_count());  // in a batch there may be more
+  result.change.come = find_border(result);
+  for (const BorderEdge& edge : result.change.come) note_bordering(edge.edge);
+  result.border.assign(result.change.come, mesh.edge_bound());
   sum_up(result);
+}
+
+/// By the triangles of the result; where these are many, by what is between covers anywhere, as it
+/// lies in memory, which several results have in common.
+std::vector<BorderEdge> Overlay::Parts::find_border(const Result& result) {
+  const Regions where = region(result);
+  std::vector<CoverId> within;
+  std::size_t count = 0;
+  for (std::uint32_t c = 1; c < result.is_in.size(); ++c) {
+    if (result.is_in[c] == 0) continue;
+    within.emplace_back(c);
+    count += covers.count(CoverId(c));
+  }
+  std::vector<BorderEdge> edges;
+  const auto add_if_border = [&](EdgeId e) {
+    if (where.has_border(e)) edges.push_back(border_edge(mesh, e));
+  };
+  constexpr std::size_t many = 4;
+  if (many * count > mesh.triangle_bound()) {
+    find_fences();
+    for (const EdgeId e : fences) {
+      add_if_border(e);
+      add_if_border(mesh.twin(e));
+    }
+    return edges;
+  }
+  for (const CoverId cover : within)
+    covers.for_each(cover, [&](TriangleId t) {
+      for (unsigned corner = 0; corner < 3; ++corner)
+        if (const EdgeId e = Triangulation::edge(t, corner); mesh.is_constrained(e))
+          add_if_border(e);
+    });
+  return edges;
+}
+
+void Overlay::Parts::find_fences() {
+  if (fences_revision == revision && !is_in_batch) return;
+  fences_revision = revision;
+  fences.clear();
+  const auto by_triangle = covers.by_triangle();
+  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i)
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(TriangleId(i), corner);
+      if (!mesh.is_constrained(e)) continue;
+      const EdgeId twin = mesh.twin(e);
+      if (e < twin && by_triangle[Triangulation::triangle(twin).index()] != by_triangle[i])
+        fences.push_back(e);
+    }
 }
 
 void Overlay::Parts::sum_up(Result& result) {

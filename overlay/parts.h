@@ -75,6 +75,8 @@ struct Overlay::Parts {
   std::vector<EdgeId> gone;             // of one edit: of triangles that are no more, bordering
   std::vector<EdgeId> moved;            // of those that have only moved, bordering
   std::vector<EdgeId> doubtful;         // and constrained ones, on either side of what changed
+  std::vector<EdgeId> fences;           // between covers, one of two twins; as of that revision:
+  std::size_t fences_revision = ~std::size_t{0};
   bool is_in_batch = false;
   std::size_t revision = 0;
 
@@ -125,6 +127,8 @@ struct Overlay::Parts {
   void check_borders(Result& result, EdgeId e);
   void check_borders(Result& result, cdt::TriangleId t);
   void build_border(Result& result);
+  [[nodiscard]] std::vector<BorderEdge> find_border(const Result& result);
+  void find_fences();
   void sum_up(Result& result);
 };
 

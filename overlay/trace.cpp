@@ -15,6 +15,41 @@ using cdt::VertexId;
 
 namespace {
 
+/// The walk along each border edge. Few vertices have several such edges that leave them.
+class WalkOf {
+ public:
+  /// Of about as many edges.
+  WalkOf(const Triangulation& mesh, std::size_t count)
+      : mesh_(&mesh), first_(count, mesh.vertex_bound()) {
+    leaving_.reserve(count);
+  }
+
+  /// `none` if there is none.
+  [[nodiscard]] std::uint32_t find(EdgeId e) const {
+    const std::uint32_t first = first_.find(mesh_->from(e).index());
+    if (first == Numbers::none) return Numbers::none;
+    return leaving_[first].edge == e ? leaving_[first].walk : others_.find(e.index());
+  }
+
+  void set(EdgeId e, std::uint32_t walk) {
+    const std::size_t vertex = mesh_->from(e).index();
+    if (first_.find(vertex) != Numbers::none) return others_.set(e.index(), walk);
+    first_.set(vertex, static_cast<std::uint32_t>(leaving_.size()));
+    leaving_.push_back({e, walk});
+  }
+
+ private:
+  struct Leaving {
+    EdgeId edge;
+    std::uint32_t walk;
+  };
+
+  const Triangulation* mesh_;
+  Numbers first_;  // by vertex: where in leaving_
+  std::vector<Leaving> leaving_;
+  FlatMap others_;  // by edge
+};
+
 /// Walks along the borders of regions.
 class Tracer {
  public:
@@ -22,18 +57,18 @@ class Tracer {
   Tracer(const Regions& regions, std::size_t count)
       : regions_(&regions),
         mesh_(regions.mesh),
-        walk_of_(count, mesh_->edge_bound()),
+        walk_of_(*mesh_, count),
         place_of_(count, mesh_->vertex_bound()) {}
 
   /// Once around from an edge, unless that has been walked. The walk's number, or `none`.
   std::uint32_t walk(EdgeId start) {
-    if (walk_of_.find(start.index()) != Numbers::none) return Numbers::none;
+    if (walk_of_.find(start) != Numbers::none) return Numbers::none;
     const std::uint32_t number = walk_count_++;
     path_.clear();
     EdgeId e = start;
     const std::uint32_t region = regions_->left_of(start);
     do {
-      walk_of_.set(e.index(), number);
+      walk_of_.set(e, number);
       step(e);
       e = next(e, region);
     } while (e != start);
@@ -57,7 +92,7 @@ class Tracer {
       const EdgeId back = mesh_->twin(e);
       EdgeId left = back;
       for (EdgeId at = back;;) {
-        if (regions_->left_of(at) != region) return walk_of_.find(mesh_->twin(at).index());
+        if (regions_->left_of(at) != region) return walk_of_.find(mesh_->twin(at));
         if (to(at) < to(left)) left = at;
         at = mesh_->rotated(at);
         if (at == back) break;
@@ -114,7 +149,7 @@ class Tracer {
   const Regions* regions_;
   const Triangulation* mesh_;
   std::uint32_t walk_count_ = 0;
-  Numbers walk_of_;   // by edge
+  WalkOf walk_of_;
   Numbers place_of_;  // by vertex: where in path_
   std::vector<EdgeId> path_;
   std::vector<TracedRing> rings_;
@@ -197,9 +232,10 @@ bool runs_on(const Triangulation& mesh, EdgeId before, EdgeId after) {
       return other.segment() == passage.segment();
     });
   };
-  return std::ranges::any_of(mesh.passages(before), has_segment) &&
-         cdt::orient(mesh.point(mesh.from(before)), mesh.point(mesh.from(after)),
-                     mesh.point(mesh.to(after))) == 0;
+  // Most edges turn, which is known sooner than what runs along them.
+  return cdt::orient(mesh.point(mesh.from(before)), mesh.point(mesh.from(after)),
+                     mesh.point(mesh.to(after))) == 0 &&
+         std::ranges::any_of(mesh.passages(before), has_segment);
 }
 
 }  // namespace
@@ -217,10 +253,18 @@ std::vector<TracedRing> trace_through(const Regions& regions, std::span<const Bo
 std::vector<BorderEdge> borders(const Regions& regions) {
   const Triangulation& mesh = *regions.mesh;
   std::vector<BorderEdge> result;
-  for (std::uint32_t i = 0; i < mesh.edge_bound(); ++i) {
-    const EdgeId e(i);
-    if (!mesh.is_constrained(e) || !regions.has_border(e)) continue;
-    result.push_back(border_edge(mesh, e));
+  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i) {
+    const std::uint32_t here = regions.at(cdt::TriangleId(i));
+    for (unsigned corner = 0; corner < 3; ++corner) {
+      const EdgeId e = Triangulation::edge(cdt::TriangleId(i), corner);
+      if (!mesh.is_constrained(e)) continue;
+      const EdgeId twin = mesh.twin(e);
+      if (twin < e) continue;  // both sides at once
+      const std::uint32_t beyond = regions.left_of(twin);
+      if (beyond == here) continue;
+      if (here != 0) result.push_back(border_edge(mesh, e));
+      if (beyond != 0) result.push_back(border_edge(mesh, twin));
+    }
   }
   return result;
 }

@@ -235,6 +235,25 @@ TEST(Overlay, ABatchIsOneChange) {
   EXPECT_THAT(overlay.rings(two.a), IsEmpty());
 }
 
+TEST(Overlay, WhatIsWatchedFromAmidABatchIsRightAfterIt) {
+  for (const bool is_watched_before : {false, true}) {
+    Two two({square(0, 0, 8), square(10, 0, 2)}, {square(1, 1, 3)});
+    Overlay& overlay = two.overlay;
+    const Expression both = Expression(two.a) | two.b;
+    if (is_watched_before) (void)overlay.watch(both);
+    overlay.begin_batch();
+    overlay.remove(overlay.rings(two.a)[1]);
+    for (const double x : {20.0, 24.0, 28.0}) overlay.insert(two.a, square(x, 0, 2));
+    const ResultId result = overlay.watch(both);
+    overlay.insert(two.b, square(21, 1, 4));
+    overlay.end_batch();
+    const ResultId fresh = overlay.watch(both);
+    EXPECT_EQ(overlay.polygons(result), overlay.polygons(fresh));
+    EXPECT_EQ(overlay.area(result).to_double(), overlay.area(fresh).to_double());
+    EXPECT_EQ(overlay.area(result).to_double(), 64 + 8 + 4 + 16 - 2);
+  }
+}
+
 TEST(Overlay, ALayerTurnsAsAWhole) {
   Two two({square(0, 0, 2), square(4, 0, 2)}, {});
   const ResultId a = two.overlay.watch(two.a);
