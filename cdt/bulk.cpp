@@ -77,6 +77,17 @@ std::vector<Stop> along_curve(std::span<const Point> points) {
   return stops;
 }
 
+/// The constraints that have segments, by the numbers of their first vertices: so those that are
+/// near in the plane, and in memory, follow each other.
+std::vector<Stop> by_first_vertex(const Triangulation& mesh, std::span<const ConstraintId> ids) {
+  std::vector<Stop> stops;
+  for (std::uint32_t i = 0; i < ids.size(); ++i)
+    if (!mesh.segments(ids[i]).empty()) stops.push_back({mesh.first_vertex(ids[i]).index(), i});
+  std::vector<Stop> scratch;
+  radix_sort(stops, scratch);
+  return stops;
+}
+
 /// Rounds of insertion, each about three times as large as all before it: so that none finds the
 /// points of a curve in the order of the curve (Amenta, Choi, Rote, "Incremental Constructions con
 /// BRIO", 2003). They are drawn by a hash.
@@ -165,10 +176,11 @@ std::vector<ConstraintId> Triangulation::insert(std::span<const Polyline> polyli
     describe(ids.back(), {first, polyline.points.size()}, polyline.ends);
     first += polyline.points.size();
   }
-  std::vector<ConstraintId> along_memory = ids;
-  if (epsilon_ == 0)  // else what is merged depends on the order
-    std::ranges::sort(along_memory, {}, [this](ConstraintId id) { return first_vertex(id); });
-  for (const ConstraintId id : along_memory) lay_all(id);
+  if (epsilon_ > 0) {  // what is merged depends on the order
+    for (const ConstraintId id : ids) lay_all(id);
+  } else {
+    for (const Stop& stop : by_first_vertex(*this, ids)) lay_all(ids[stop.index]);
+  }
   if (known_snaps > 0) {
     for (const ConstraintId id : ids) note_edited(id);
     straighten(known_snaps);
