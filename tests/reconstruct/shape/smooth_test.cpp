@@ -362,6 +362,24 @@ TEST(Smooth, AnEndIsAsHighAsItsTrendLeads) {
   EXPECT_NEAR(top, 10, 0.05);
 }
 
+// A hollow ball's last outline is around nothing; the one before it is around a hole. Its bottom
+// is half a slab below; beside it a rod goes on.
+TEST(Smooth, AnEndOfWhatIsHollowIsAsHighAsItsOutlinesLead) {
+  std::vector<Slice> slices;
+  for (double z = -7; z <= 7; z += 2) {
+    Slice& slice = slices.emplace_back(Slice{z, {stacks::circle(20, 1, {40, 0})}});
+    for (const double radius : {6.0, 4.5})
+      if (radius > std::abs(z))
+        slice.contours.push_back(stacks::circle(80, std::sqrt(radius * radius - z * z)));
+  }
+  const Surface bent = make(slices, true);
+  EXPECT_EQ(solids::faults(bent), "");
+  double bottom = 0;
+  for (const auto v : bent.vertices())
+    if (bent.point(v)[0] < 20) bottom = std::min(bottom, bent.point(v)[2]);
+  EXPECT_NEAR(bottom, -6, 0.05);
+}
+
 /// Slices of a box that stands on a corner, turned about it, between the same two heights.
 std::vector<Slice> tilted_box(std::size_t slabs, double turn) {
   const auto corner = [&](unsigned bits) {
