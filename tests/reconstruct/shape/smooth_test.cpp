@@ -415,7 +415,8 @@ std::vector<Slice> tilted_box(std::size_t slabs, double turn) {
   return slices;
 }
 
-// Where an edge of the box is between two slices, links do not go on straight.
+// Where an edge of the box is between two slices, links do not go on straight; and beside its
+// corners distances are round.
 TEST(Smooth, ABoxOnItsCornerIsHardlyBent) {
   double plain_off = 0;
   double bent_off = 0;
@@ -425,7 +426,7 @@ TEST(Smooth, ABoxOnItsCornerIsHardlyBent) {
     plain_off += std::abs(volume(make(slices, false)) - exact);
     bent_off += std::abs(volume(make(slices, true)) - exact);
   }
-  EXPECT_LT(bent_off, 1.07 * plain_off);
+  EXPECT_LT(bent_off, plain_off);
 }
 
 // Discs that do not overlap their neighbours, one upon the other but for a shear.
