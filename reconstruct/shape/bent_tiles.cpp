@@ -268,11 +268,21 @@ class Bending {
     if (freedom > 0) {
       // Its ends were given way by as much: the smooth surface is further from it than from them.
       const double given = (1 - freedom) / freedom * length(way);
-      const Vec3 free = target_.way_from(bent.start, piece, most + given, facing(a, b));
+      const Vec3 free = free_way(bent.start, a, b, piece, most + given);
       way = along(free, 1 - freedom, minus(way, free));
     }
     bent.way = cut_off(way, most);
     bent.off = length(bent.way);
+  }
+
+  /// From the middle of an edge, if nothing speaks for it to be straight. At corners of outlines
+  /// the way that leads there though distances change evenly is left out: faces are flat there.
+  [[nodiscard]] Vec3 free_way(const Vec3& start, std::uint32_t a, std::uint32_t b,
+                              std::uint32_t piece, double most) const {
+    const Vec3 way = target_.way_from(start, piece, most, facing(a, b));
+    const double corner = 1 - freedom_.roundness(a, b);
+    if (corner == 0) return way;
+    return along(way, -corner, target_.even_way_from(start, piece, most, facing(a, b)));
   }
 
   /// Notes an edge if it is to be split.

@@ -48,6 +48,10 @@ class Freedom {
                                double looseness) const {
     return roundness(a, b) * looseness * of_piece_[piece];
   }
+  /// 1 where outlines hardly turn at the ends of an edge, 0 where they have corners at both.
+  [[nodiscard]] double roundness(std::uint32_t a, std::uint32_t b) const {
+    return (roundness_[a] + roundness_[b]) / 2;
+  }
   /// How little speaks for an edge to be straight. Precondition: the plain tiles have it, or one of
   /// its nodes was added.
   [[nodiscard]] double looseness(std::uint32_t a, std::uint32_t b) const;
@@ -58,9 +62,6 @@ class Freedom {
   }
 
  private:
-  [[nodiscard]] double roundness(std::uint32_t a, std::uint32_t b) const {
-    return (roundness_[a] + roundness_[b]) / 2;
-  }
   void find_roundness(std::span<const OutlinePoint> outlines, const TileSet& tiles);
   void find_looseness(const BentSlab& slab, std::span<const OutlinePoint> outlines,
                       const TileSet& tiles);

@@ -64,6 +64,30 @@ double share_of_second(const Chord& first, const Chord& second) {
   return first.length / (first.length + second.length);
 }
 
+/// How deep a place is in the parts of a slice, or in its cavities; negative outside of them.
+double depth_in(const SliceShape& slice, bool is_solid, Point place, Point facing = {}) {
+  const double distance = slice.distance.at(place, facing).distance;
+  return is_solid ? -distance : distance;
+}
+
+/// How deep the middle of an end, `depth` deep in its own slice, would be in the slice before if
+/// that were not hollow there: by how far the outline before is around its own, on both sides.
+/// Negative if it is not.
+double depth_around(const SliceShape& before, const SliceShape& slice, bool is_solid, Point middle,
+                    double depth) {
+  const Point outward = slice.distance.at(middle).outward;
+  double sum = 0;
+  for (const double side : {1.0, -1.0}) {
+    const Point facing{side * outward.x, side * outward.y};
+    const auto [distance, way] = slice.distance.at(middle, facing);
+    const Point foot{middle.x - distance * way.x, middle.y - distance * way.y};
+    const double around = depth_in(before, is_solid, foot, way);
+    if (around < 0) return -1;
+    sum += around;
+  }
+  return depth + sum / 2;
+}
+
 }  // namespace
 
 SmoothPassage::SmoothPassage(const Surroundings& slices, Point shift)
@@ -110,21 +134,39 @@ std::array<SmoothPassage::Tangent, 2> SmoothPassage::tangents(const Weights& dis
   return tangents;
 }
 
-Sample SmoothPassage::at(const Vec3& p, Point facing) const {
-  const double gap = z(2) - z(1);
-  Weights distances{};
-  std::array<Point, 4> directions{};
-  for (std::size_t i = 0; i < 4; ++i) {
+SmoothPassage::Distances SmoothPassage::distances(const Vec3& p, Point facing, std::size_t first,
+                                                  std::size_t last) const {
+  Distances found;
+  for (std::size_t i = first; i <= last; ++i) {
     if (!has(i)) continue;
-    const double share = (z(i) - p[2]) / gap;
-    const auto found =
+    const double share = (z(i) - p[2]) / (z(2) - z(1));
+    const auto [distance, outward] =
         slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y}, facing);
-    distances[i] = found.distance;
-    directions[i] = found.outward;
+    found.values[i] = distance;
+    found.outward[i] = outward;
   }
-  const auto [lower, upper] = tangents(distances);
+  return found;
+}
+
+Sample SmoothPassage::sample(double value, double rise, const Weights& weights,
+                             const Distances& distances) const {
+  Sample sample{value, {0, 0, rise}};
+  for (std::size_t i = 0; i < 4; ++i) {
+    sample.gradient[0] += weights[i] * distances.outward[i].x;
+    sample.gradient[1] += weights[i] * distances.outward[i].y;
+  }
+  sample.gradient[2] -=
+      (shift_.x * sample.gradient[0] + shift_.y * sample.gradient[1]) / (z(2) - z(1));
+  return sample;
+}
+
+Sample SmoothPassage::at(const Vec3& p, Point facing) const {
+  const Distances found = distances(p, facing, 0, 3);
+  const Weights& values = found.values;
+  const auto [lower, upper] = tangents(values);
 
   // The cubic's basis (Hermite), and its derivatives by z.
+  const double gap = z(2) - z(1);
   const double t = (p[2] - z(1)) / gap;
   const double u = 1 - t;
   const double from_upper = t * t * (3 - 2 * t);
@@ -135,20 +177,22 @@ Sample SmoothPassage::at(const Vec3& p, Point facing) const {
   const double lower_rise = u * (1 - 3 * t);
   const double upper_rise = t * (3 * t - 2);
 
-  Sample sample{
-      from_lower * distances[1] + from_upper * distances[2] + lower_tangent * lower.slope +
+  Weights weights{0, from_lower, from_upper, 0};
+  for (std::size_t i = 0; i < 4; ++i)
+    weights[i] += lower_tangent * lower.weights[i] + upper_tangent * upper.weights[i];
+  return sample(
+      from_lower * values[1] + from_upper * values[2] + lower_tangent * lower.slope +
           upper_tangent * upper.slope,
-      {0, 0,
-       rise * (distances[2] - distances[1]) + lower_rise * lower.slope + upper_rise * upper.slope}};
-  const Weights base{0, from_lower, from_upper, 0};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const double weight =
-        base[i] + lower_tangent * lower.weights[i] + upper_tangent * upper.weights[i];
-    sample.gradient[0] += weight * directions[i].x;
-    sample.gradient[1] += weight * directions[i].y;
-  }
-  sample.gradient[2] -= (shift_.x * sample.gradient[0] + shift_.y * sample.gradient[1]) / gap;
-  return sample;
+      rise * (values[2] - values[1]) + lower_rise * lower.slope + upper_rise * upper.slope, weights,
+      found);
+}
+
+Sample SmoothPassage::even_at(const Vec3& p, Point facing) const {
+  const Distances found = distances(p, facing, 1, 2);
+  const double gap = z(2) - z(1);
+  const double t = (p[2] - z(1)) / gap;
+  return sample((1 - t) * found.values[1] + t * found.values[2],
+                (found.values[2] - found.values[1]) / gap, {0, 1 - t, t, 0}, found);
 }
 
 SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle, double depth,
@@ -161,7 +205,8 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
   if (before != nullptr && !before->distance.is_empty()) {
     const double gap = std::abs(slice_->z - before->z);
     const bool is_solid = slice_->distance.at(middle).distance < 0;
-    const double there = before->distance.at(middle).distance * (is_solid ? -1 : 1);
+    double there = depth_in(*before, is_solid, middle);
+    if (there < 0) there = depth_around(*before, *slice_, is_solid, middle, depth);
     if (there > 0) {
       trend_ = std::clamp((depth * depth - there * there - gap * gap) / gap, -most_trend * depth,
                           most_trend * depth);

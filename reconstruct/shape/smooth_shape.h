@@ -48,9 +48,16 @@ class SmoothPassage {
   /// both sides of a thin wall bend as they go themselves. Cost: that of a query of each slice. The
   /// gradient is approximate: it takes the tangents for weighted means of the chords.
   [[nodiscard]] Sample at(const Vec3& p, cdt::Point facing = {}) const;
+  /// The surface on which distances change evenly from slice to slice. Straight tiles are on it but
+  /// for corners of outlines, where distances are round.
+  [[nodiscard]] Sample even_at(const Vec3& p, cdt::Point facing) const;
 
  private:
   using Weights = std::array<double, 4>;
+  struct Distances {
+    Weights values{};
+    std::array<cdt::Point, 4> outward{};
+  };
   struct Tangent {
     double slope;
     Weights weights;  // of the slices' distances in it
@@ -58,6 +65,12 @@ class SmoothPassage {
 
   [[nodiscard]] bool has(std::size_t slice) const { return slices_[slice] != nullptr; }
   [[nodiscard]] double z(std::size_t slice) const { return slices_[slice]->z; }
+  /// To the contours of some slices, each at the place that p is sheared to there.
+  [[nodiscard]] Distances distances(const Vec3& p, cdt::Point facing, std::size_t first,
+                                    std::size_t last) const;
+  /// With the gradient in the plane, and by z as far as the shear changes it.
+  [[nodiscard]] Sample sample(double value, double rise, const Weights& weights,
+                              const Distances& distances) const;
   [[nodiscard]] std::array<Tangent, 2> tangents(const Weights& distances) const;
 
   Surroundings slices_;  // null, too, where the slice is empty
@@ -68,9 +81,10 @@ class SmoothPassage {
 ///
 /// A spheroid standing on the contours: at the depth d of a place below the part's boundary, as
 /// high as a ball is at r - d from its axis, r the part's largest depth. How fast the ball shrinks
-/// is read from the slice before: how deep the part's middle is there. The height is kept within
-/// the slab; where the slice before has nothing there it is 0.7 of it or a little more, where there
-/// is no slice before, half of it.
+/// is read from the slice before: how deep the part's middle is there; where that is hollow, how
+/// far its outline is around the part's own. The height is kept within the slab; where the slice
+/// before has nothing there it is 0.7 of it or a little more, where there is no slice before, half
+/// of it.
 class SmoothEnd {
  public:
   /// On slice 1 or 2 of the surroundings; `middle` is where the part is deepest, `depth` deep. Its

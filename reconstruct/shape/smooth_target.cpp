@@ -164,6 +164,13 @@ Vec3 SmoothTarget::way_from(const Vec3& place, std::uint32_t piece, double most,
   return {};
 }
 
+Vec3 SmoothTarget::even_way_from(const Vec3& place, std::uint32_t piece, double most,
+                                 Point facing) const {
+  const auto* const passage = std::get_if<SmoothPassage>(&shapes_[piece]);
+  if (passage == nullptr) return {};
+  return way_from(place, most, [&](const Vec3& p) { return passage->even_at(p, facing); });
+}
+
 template <class SampleAt>
 Vec3 SmoothTarget::way_from(const Vec3& place, double most, const SampleAt& sample_at) const {
   Vec3 way{};

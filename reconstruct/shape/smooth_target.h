@@ -25,6 +25,9 @@ class SmoothTarget {
   /// contours do; see SmoothPassage::at(). 0 if the slices do not tell where it is.
   [[nodiscard]] Vec3 way_from(const Vec3& place, std::uint32_t piece, double most,
                               cdt::Point facing) const;
+  /// The same to the surface on which distances change evenly from slice to slice; 0 for an end.
+  [[nodiscard]] Vec3 even_way_from(const Vec3& place, std::uint32_t piece, double most,
+                                   cdt::Point facing) const;
   /// Whether a piece is bent to a spheroid that ends between the slices.
   [[nodiscard]] bool is_end(std::uint32_t piece) const {
     return std::holds_alternative<SmoothEnd>(shapes_[piece]);
