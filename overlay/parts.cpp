@@ -234,41 +234,23 @@ std::vector<BorderEdge> Overlay::Parts::find_border(const Result& result) {
     within.emplace_back(c);
     count += covers.count(CoverId(c));
   }
-  std::vector<BorderEdge> edges;
-  const auto add_if_border = [&](EdgeId e) {
-    if (where.has_border(e)) edges.push_back(border_edge(mesh, e));
-  };
   constexpr std::size_t many = 4;
-  if (many * count > mesh.triangle_bound()) {
-    find_fences();
-    for (const EdgeId e : fences) {
-      add_if_border(e);
-      add_if_border(mesh.twin(e));
-    }
-    return edges;
-  }
+  if (many * count > mesh.triangle_bound()) return borders(where, known_fences());
+  std::vector<BorderEdge> edges;
   for (const CoverId cover : within)
     covers.for_each(cover, [&](TriangleId t) {
       for (unsigned corner = 0; corner < 3; ++corner)
-        if (const EdgeId e = Triangulation::edge(t, corner); mesh.is_constrained(e))
-          add_if_border(e);
+        if (const EdgeId e = Triangulation::edge(t, corner);
+            mesh.is_constrained(e) && where.has_border(e))
+          edges.push_back(border_edge(mesh, e));
     });
   return edges;
 }
 
-void Overlay::Parts::find_fences() {
-  if (fences_revision == revision && !is_in_batch) return;
+const std::vector<EdgeId>& Overlay::Parts::known_fences() {
+  if (fences_revision != revision || is_in_batch) fences = find_fences(mesh, covers.by_triangle());
   fences_revision = revision;
-  fences.clear();
-  const auto by_triangle = covers.by_triangle();
-  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i)
-    for (unsigned corner = 0; corner < 3; ++corner) {
-      const EdgeId e = Triangulation::edge(TriangleId(i), corner);
-      if (!mesh.is_constrained(e)) continue;
-      const EdgeId twin = mesh.twin(e);
-      if (e < twin && by_triangle[Triangulation::triangle(twin).index()] != by_triangle[i])
-        fences.push_back(e);
-    }
+  return fences;
 }
 
 void Overlay::Parts::sum_up(Result& result) {

@@ -128,7 +128,7 @@ struct Overlay::Parts {
   void check_borders(Result& result, cdt::TriangleId t);
   void build_border(Result& result);
   [[nodiscard]] std::vector<BorderEdge> find_border(const Result& result);
-  void find_fences();
+  [[nodiscard]] const std::vector<EdgeId>& known_fences();
   void sum_up(Result& result);
 };
 

@@ -250,23 +250,30 @@ std::vector<TracedRing> trace_through(const Regions& regions, std::span<const Bo
   return tracer.take_rings();
 }
 
-std::vector<BorderEdge> borders(const Regions& regions) {
-  const Triangulation& mesh = *regions.mesh;
-  std::vector<BorderEdge> result;
-  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i) {
-    const std::uint32_t here = regions.at(cdt::TriangleId(i));
+std::vector<EdgeId> find_fences(const Triangulation& mesh, std::span<const CoverId> covers) {
+  std::vector<EdgeId> fences;
+  for (std::uint32_t i = 0; i < mesh.triangle_bound(); ++i)
     for (unsigned corner = 0; corner < 3; ++corner) {
       const EdgeId e = Triangulation::edge(cdt::TriangleId(i), corner);
       if (!mesh.is_constrained(e)) continue;
       const EdgeId twin = mesh.twin(e);
-      if (twin < e) continue;  // both sides at once
-      const std::uint32_t beyond = regions.left_of(twin);
-      if (beyond == here) continue;
-      if (here != 0) result.push_back(border_edge(mesh, e));
-      if (beyond != 0) result.push_back(border_edge(mesh, twin));
+      if (e < twin && covers[Triangulation::triangle(twin).index()] != covers[i])
+        fences.push_back(e);
     }
-  }
+  return fences;
+}
+
+std::vector<BorderEdge> borders(const Regions& regions, std::span<const EdgeId> fences) {
+  const Triangulation& mesh = *regions.mesh;
+  std::vector<BorderEdge> result;
+  for (const EdgeId e : fences)
+    for (const EdgeId side : {e, mesh.twin(e)})
+      if (regions.has_border(side)) result.push_back(border_edge(mesh, side));
   return result;
+}
+
+std::vector<BorderEdge> borders(const Regions& regions) {
+  return borders(regions, find_fences(*regions.mesh, regions.covers));
 }
 
 Ring points_of(const Triangulation& mesh, const TracedRing& ring, bool leave_out_straight) {

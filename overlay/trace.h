@@ -56,7 +56,15 @@ struct TracedPolygon {
 [[nodiscard]] std::vector<TracedRing> trace_through(const Regions& regions,
                                                     std::span<const BorderEdge> some);
 
-/// The border edges of all regions. Cost: O(triangles).
+/// The edges between triangles of different covers, one of two twins, as they lie in memory. Cost:
+/// O(triangles).
+[[nodiscard]] std::vector<EdgeId> find_fences(const cdt::Triangulation& mesh,
+                                              std::span<const CoverId> covers);
+
+/// The border edges of all regions, which are at the fences of their covers.
+[[nodiscard]] std::vector<BorderEdge> borders(const Regions& regions,
+                                              std::span<const EdgeId> fences);
+/// The same. Cost: O(triangles).
 [[nodiscard]] std::vector<BorderEdge> borders(const Regions& regions);
 
 /// The points of a ring. `leave_out_straight`: without those where it only runs on exactly straight

@@ -64,12 +64,6 @@ double share_of_second(const Chord& first, const Chord& second) {
   return first.length / (first.length + second.length);
 }
 
-/// How deep a place is in the parts of a slice, or in its cavities; negative outside of them.
-double depth_in(const SliceShape& slice, bool is_solid, Point place, Point facing = {}) {
-  const double distance = slice.distance.at(place, facing).distance;
-  return is_solid ? -distance : distance;
-}
-
 /// How deep the middle of an end, `depth` deep in its own slice, would be in the slice before if
 /// that were not hollow there: by how far the outline before is around its own, on both sides.
 /// Negative if it is not.
@@ -81,7 +75,7 @@ double depth_around(const SliceShape& before, const SliceShape& slice, bool is_s
     const Point facing{side * outward.x, side * outward.y};
     const auto [distance, way] = slice.distance.at(middle, facing);
     const Point foot{middle.x - distance * way.x, middle.y - distance * way.y};
-    const double around = depth_in(before, is_solid, foot, way);
+    const double around = before.depth(is_solid, foot, way);
     if (around < 0) return -1;
     sum += around;
   }
@@ -205,7 +199,7 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
   if (before != nullptr && !before->distance.is_empty()) {
     const double gap = std::abs(slice_->z - before->z);
     const bool is_solid = slice_->distance.at(middle).distance < 0;
-    double there = depth_in(*before, is_solid, middle);
+    double there = before->depth(is_solid, middle);
     if (there < 0) there = depth_around(*before, *slice_, is_solid, middle, depth);
     if (there > 0) {
       trend_ = std::clamp((depth * depth - there * there - gap * gap) / gap, -most_trend * depth,

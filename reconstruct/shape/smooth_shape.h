@@ -16,6 +16,13 @@ struct SliceShape {
 
   SliceShape() = default;
   explicit SliceShape(const Region& region) : z(region.z), distance(boundary(region)) {}
+
+  /// How deep a place is in the parts, or in the cavities; negative outside of them. Of the
+  /// contours those count that face about as the unit vector `facing`; all, if it is 0.
+  [[nodiscard]] double depth(bool is_solid, cdt::Point place, cdt::Point facing = {}) const {
+    const double outside = distance.at(place, facing).distance;
+    return is_solid ? -outside : outside;
+  }
 };
 
 /// A slab, between the slices [1] and [2], with the slices before and after it. Null at the end of

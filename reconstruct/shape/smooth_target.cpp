@@ -96,12 +96,6 @@ Circle circle_around(const Region& region, const Footprint& footprint) {
   return circle;
 }
 
-/// How far a place is outside of the parts of a slice, or of its cavities.
-double distance_outside(const SliceShape& slice, bool is_solid, Point place) {
-  const double distance = slice.distance.at(place).distance;
-  return is_solid ? distance : -distance;
-}
-
 /// The slices that tell how a piece goes: not one in which it has not begun yet, or has ended.
 Surroundings known_of(const Piece& piece, const BentSlab& slab, Point way) {
   Surroundings known = slab.slices;
@@ -111,10 +105,10 @@ Surroundings known_of(const Piece& piece, const BentSlab& slab, Point way) {
     if (beyond == nullptr || beyond->distance.is_empty()) return;
     const auto [middle, radius] = circle_around(region, piece.footprint(level));
     // What is hollow there, or bent around it, may be so beyond as well.
-    if (distance_outside(slice, piece.is_solid, middle) >= 0) return;
+    if (slice.depth(piece.is_solid, middle) <= 0) return;
     const double share = (beyond->z - slice.z) / height;
     const Point there{middle.x + share * way.x, middle.y + share * way.y};
-    if (distance_outside(*beyond, piece.is_solid, there) >= radius) beyond = nullptr;
+    if (beyond->depth(piece.is_solid, there) <= -radius) beyond = nullptr;
   };
   look(known[0], *slab.slices[1], slab.lower, Level::lower);
   look(known[3], *slab.slices[2], slab.upper, Level::upper);
