@@ -2,7 +2,6 @@
 #include "reconstruct/out_of_core.h"
 
 #include <algorithm>
-#include <deque>
 #include <iterator>
 #include <map>
 #include <set>
@@ -24,6 +23,7 @@
 #include "reconstruct/sew/caps.h"
 #include "reconstruct/sew/sewing.h"
 #include "reconstruct/sew/used_points.h"
+#include "reconstruct/shape/forks.h"
 #include "reconstruct/shape/refine.h"
 #include "reconstruct/shape/smooth.h"
 #include "reconstruct/tile/tiles.h"
@@ -137,7 +137,6 @@ class GroupByGroup {
 
   /// Takes every slab as far as the regions that are known allow.
   void make_slabs(End end) {
-    add_shapes();
     if (regions_.bound() < 2) return;  // from the second on the first one stays
     for (; added_bound_ < regions_.bound(); ++added_bound_) linking_.add(regions_[added_bound_]);
     const std::size_t tiled = std::exchange(tiled_bound_, linking_.slab_bound());
@@ -155,7 +154,11 @@ class GroupByGroup {
     std::vector<TileSet> slabs(slab_bound_ - first);
     if (options_.reports_slabs) reports_.resize(slab_bound_);
     for_each_index(slabs.size(), options_.threads,
-                   [&](std::size_t i, unsigned) { slabs[i] = make_slab(first + i); });
+                   [&](std::size_t i, unsigned) { slabs[i] = link_slab(first + i); });
+    add_shapes(first, slabs);
+    for_each_index(slabs.size(), options_.threads, [&](std::size_t i, unsigned) {
+      slabs[i] = bend_slab(first + i, std::move(slabs[i]));
+    });
     settle_lines(first, slabs);
     linking_.drop_below(slab_bound_ == 0 ? 0 : slab_bound_ - 1);
 
@@ -176,19 +179,48 @@ class GroupByGroup {
     return static_cast<std::uint32_t>(window_.first_region + i);
   }
 
-  [[nodiscard]] TileSet make_slab(std::size_t i) {
+  [[nodiscard]] TileSet link_slab(std::size_t i) {
     linking_.link(i);
     TileSet tiles = std::move(linking_.tiles(i));
     if (options_.reports_slabs)
       reports_[i] = report_slab(regions_[i], regions_[i + 1], tiles, linking_.pieces(i));
-    if (options_.smooth) {
+    return tiles;
+  }
+
+  [[nodiscard]] bool is_bent(std::size_t i, const TileSet& tiles) {
+    return options_.smooth ||
+           !tiles_at_forks(regions_[i], regions_[i + 1], linking_.pieces(i), tiles).empty();
+  }
+
+  /// What bending wants to know of the regions around slabs.
+  void add_shapes(std::size_t first, std::span<const TileSet> slabs) {
+    std::vector<std::pair<const std::size_t, SliceShape>*> added;
+    for (std::size_t i = first; i < first + slabs.size(); ++i) {
+      if (!is_bent(i, slabs[i - first])) continue;
+      for (std::size_t k = i == 0 ? 0 : i - 1; k < i + 3; ++k) {
+        if (!regions_.has(k)) continue;
+        const auto [shape, is_new] = shapes_.try_emplace(k);
+        if (is_new) added.push_back(&*shape);
+      }
+    }
+    for_each_index(added.size(), options_.threads, [&](std::size_t i, unsigned) {
+      added[i]->second = SliceShape(regions_[added[i]->first]);
+    });
+  }
+
+  [[nodiscard]] TileSet bend_slab(std::size_t i, TileSet tiles) {
+    const Region& lower = regions_[i];
+    const Region& upper = regions_[i + 1];
+    if (is_bent(i, tiles)) {
       Surroundings around{};
       for (std::size_t k = 0; k < around.size(); ++k)
-        if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_[i + k - 1 - first_shape_];
-      tiles = smooth(regions_[i], regions_[i + 1], around, linking_.pieces(i), std::move(tiles),
-                     options_.smooth_tolerance);
+        if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_.at(i + k - 1);
+      const Pieces& pieces = linking_.pieces(i);
+      tiles = options_.smooth ? smooth(lower, upper, around, pieces, std::move(tiles),
+                                       options_.smooth_tolerance)
+                              : bend_forks(lower, upper, around, pieces, tiles);
     }
-    return refine(regions_[i], regions_[i + 1], std::move(tiles), options_);
+    return refine(lower, upper, std::move(tiles), options_);
   }
 
   /// Leaves out the points of lines that no part ends in; names the lines.
@@ -222,16 +254,6 @@ class GroupByGroup {
     return found == used_.end() ? regions_[i] : found->second.region();
   }
 
-  /// What bending wants to know of the regions that are new.
-  void add_shapes() {
-    if (!options_.smooth || regions_.bound() < 2) return;  // then the first one is known
-    const std::size_t known = first_shape_ + shapes_.size();
-    shapes_.resize(regions_.bound() - first_shape_);
-    for_each_index(regions_.bound() - known, options_.threads, [&](std::size_t i, unsigned) {
-      shapes_[known + i - first_shape_] = SliceShape(regions_[known + i]);
-    });
-  }
-
   void finish() {
     if (window_.is_top) add_top();
     pass_on();
@@ -257,7 +279,7 @@ class GroupByGroup {
     const std::size_t needed = std::min(sewn, slab_bound_ - std::min<std::size_t>(1, slab_bound_));
     regions_.drop_below(needed);
     used_.erase(used_.begin(), used_.lower_bound(needed));
-    for (; options_.smooth && first_shape_ < needed; ++first_shape_) shapes_.pop_front();
+    shapes_.erase(shapes_.begin(), shapes_.lower_bound(needed));
   }
 
   /// Those of slabs that are passed on.
@@ -274,8 +296,7 @@ class GroupByGroup {
   std::size_t caps_below_;  // layers below the first slab
   OneLabel one_label_;
   RegionQueue regions_;
-  std::deque<SliceShape> shapes_;  // of the regions from first_shape_ on, if they are asked for
-  std::size_t first_shape_ = 0;
+  std::map<std::size_t, SliceShape> shapes_;  // of the regions around slabs that are bent
   Linking linking_;
   std::size_t added_bound_ = 0;    // regions below are known to it
   std::size_t tiled_bound_ = 0;    // slabs below are tiled,

@@ -21,6 +21,7 @@
 #include "reconstruct/out_of_core.h"
 #include "reconstruct/parallel.h"
 #include "reconstruct/sew/sew.h"
+#include "reconstruct/shape/forks.h"
 #include "reconstruct/shape/refine.h"
 #include "reconstruct/shape/simplify.h"
 #include "reconstruct/shape/smooth.h"
@@ -210,6 +211,28 @@ void smooth_all(const std::vector<Region>& regions, Slabs& slabs, const Options&
   });
 }
 
+/// Straight tiles follow four slices where they fork.
+void bend_all_forks(const std::vector<Region>& regions, Slabs& slabs, unsigned threads) {
+  std::vector<std::size_t> forked;
+  std::vector<bool> is_near(regions.size());
+  for (std::size_t i = 0; i < slabs.tiles.size(); ++i) {
+    if (tiles_at_forks(regions[i], regions[i + 1], slabs.pieces[i], slabs.tiles[i]).empty())
+      continue;
+    forked.push_back(i);
+    for (std::size_t k = i == 0 ? 0 : i - 1; k < std::min(i + 3, regions.size()); ++k)
+      is_near[k] = true;
+  }
+  std::vector<SliceShape> shapes(regions.size());
+  for_each_index(regions.size(), threads, [&](std::size_t i, unsigned) {
+    if (is_near[i]) shapes[i] = SliceShape(regions[i]);
+  });
+  for_each_index(forked.size(), threads, [&](std::size_t f, unsigned) {
+    const std::size_t i = forked[f];
+    slabs.tiles[i] = bend_forks(regions[i], regions[i + 1], surroundings(shapes, i),
+                                slabs.pieces[i], slabs.tiles[i]);
+  });
+}
+
 void refine_all(const std::vector<Region>& regions, std::vector<TileSet>& slabs,
                 const Options& options, const Progress& progress) {
   Reporter reporter(progress, Stage::refine, slabs.size());
@@ -253,7 +276,11 @@ Reconstructed reconstruct_from(std::span<const Slice> slices, const Clean& clean
   std::ranges::stable_sort(repairs, {}, &Defect::z);
   std::vector<SlabReport> reports;
   if (options.reports_slabs) reports = report_slabs(regions, slabs.tiles, slabs.pieces);
-  if (options.smooth) smooth_all(regions, slabs, options, progress);
+  if (options.smooth) {
+    smooth_all(regions, slabs, options, progress);
+  } else {
+    bend_all_forks(regions, slabs, options.threads);
+  }
   if (options.max_edge || options.target_edge) refine_all(regions, slabs.tiles, options, progress);
   Reporter sewing(progress, Stage::sew, 1);
   // Made in its place: an OpenMesh mesh cannot be moved, only copied.

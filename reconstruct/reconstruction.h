@@ -25,12 +25,12 @@ struct LiveStack;
 /// each edit. While fewer than two slices have an area there is no surface.
 ///
 /// An edit of a slice changes the slabs beside it: at most two; at most four with Options::smooth,
-/// and where a part ends or begins. The first and the last slab own the caps, so that a slice
-/// beyond the end changes the slab that was the last one; and it makes all the slabs of the empty
-/// slices that were beyond the end. Where contours touch, the next slabs may be sewn anew; they
-/// stay, with other faces (SurfaceChange::resewn). The mesh is updated in its place: handles of
-/// faces, vertices and edges that are not among what an edit removed stay valid. What is removed is
-/// marked as deleted (OpenMesh's status) and used again by later edits.
+/// where tiles fork, and where a part ends or begins. The first and the last slab own the caps, so
+/// that a slice beyond the end changes the slab that was the last one; and it makes all the slabs
+/// of the empty slices that were beyond the end. Where contours touch, the next slabs may be sewn
+/// anew; they stay, with other faces (SurfaceChange::resewn). The mesh is updated in its place:
+/// handles of faces, vertices and edges that are not among what an edit removed stay valid. What is
+/// removed is marked as deleted (OpenMesh's status) and used again by later edits.
 ///
 /// Strong guarantee: an edit that throws has changed nothing; but for std::bad_alloc once the mesh
 /// is being changed, with all that this takes: after that only destroying it is safe.

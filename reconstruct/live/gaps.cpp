@@ -10,6 +10,7 @@
 #include "reconstruct/link/link_ends.h"
 #include "reconstruct/link/link_orders.h"
 #include "reconstruct/live/retile.h"
+#include "reconstruct/shape/forks.h"
 #include "reconstruct/shape/refine.h"
 
 namespace loft {
@@ -77,7 +78,7 @@ bool Gaps::tile_in_part(Gap& gap) {
     return false;
   const Station& changed = is_lower_same ? *gap.upper : *gap.lower;
   const auto& matches = match(changed, is_lower_same ? *old.upper : *old.lower);
-  auto retiled = retile({*old.lower, *old.upper, *old.tiles, *old.pieces, *gap.lower->region,
+  auto retiled = retile({*old.lower, *old.upper, *old.linked, *old.pieces, *gap.lower->region,
                          *gap.upper->region, is_lower_same ? Level::upper : Level::lower, matches},
                         options, stack_.workspace);
   if (!retiled) return false;
@@ -155,10 +156,15 @@ void Gaps::link(std::size_t i) {
   gap.made->ends = std::move(ends);
 }
 
-Gaps::Shapes Gaps::shapes_around(std::size_t i) const {
+/// Of the slices that a slab is bent by.
+Gaps::Shapes Gaps::shapes_around(std::size_t i) {
   Shapes shapes;
-  for (std::size_t k = 0; k < shapes.size(); ++k)
-    if (i + k >= 1 && i + k - 1 < line_.size()) shapes[k] = line_[i + k - 1]->shape;
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (i + k < 1 || i + k - 1 >= line_.size()) continue;
+    auto& shape = line_[i + k - 1]->shape;
+    if (shape == nullptr) shape = std::make_shared<const SliceShape>(*line_[i + k - 1]->region);
+    shapes[k] = shape;
+  }
   return shapes;
 }
 
@@ -166,9 +172,9 @@ Gaps::Shapes Gaps::shapes_around(std::size_t i) const {
 void Gaps::bend(std::size_t i) {
   Gap& gap = gaps_[i];
   const Options& options = stack_.options;
-  const Shapes shapes = shapes_around(i);
   if (!gap.made) {
-    if (!options.smooth || !has_neighbours(i) || shapes == gap.there->shapes) return;
+    if (!gap.there->is_bent() || !has_neighbours(i) || shapes_around(i) == gap.there->shapes)
+      return;
     gap.made.emplace();
     gap.made->found = gap.there->found;
     gap.made->ends = gap.there->ends;
@@ -182,21 +188,52 @@ void Gaps::bend(std::size_t i) {
   auto tiles = linked;
   const Region& lower = *gap.lower->region;
   const Region& upper = *gap.upper->region;
-  if (options.smooth) {
+  if (options.smooth || !tiles_at_forks(lower, upper, *pieces, *linked).empty()) {
+    gap.made->shapes = shapes_around(i);
     Surroundings around{};
-    for (std::size_t k = 0; k < around.size(); ++k) around[k] = shapes[k].get();
+    for (std::size_t k = 0; k < around.size(); ++k) around[k] = gap.made->shapes[k].get();
     tiles = std::make_shared<const TileSet>(
-        smooth(lower, upper, around, *pieces, *linked, options.smooth_tolerance));
+        options.smooth ? smooth(lower, upper, around, *pieces, *linked, options.smooth_tolerance)
+                       : bend_forks(lower, upper, around, *pieces, *linked));
   }
+  if (gap.before != nullptr) keep_unbent(gap, *linked, *pieces);
   if (options.max_edge || options.target_edge)
     tiles = std::make_shared<const TileSet>(refine(lower, upper, *tiles, options));
-  gap.made->shapes = shapes;
   FrozenSlab frozen{{0, lower.z, upper.z}, gap.lower->region, gap.upper->region};
   frozen.volume = loft::volume(lower, upper, *tiles);
   frozen.tiles = std::move(tiles);
   frozen.linked = std::move(linked);
   frozen.pieces = std::move(pieces);
   gap.made->frozen = std::make_shared<const FrozenSlab>(std::move(frozen));
+}
+
+/// A slab that keeps some of its tiles keeps those at forks no longer: they may be bent otherwise.
+/// The others come first in it, in their order, before and now.
+void Gaps::keep_unbent(Gap& gap, const TileSet& linked, const Pieces& pieces) {
+  const FrozenSlab& old = *gap.before->frozen;
+  auto bent = tiles_at_forks(*gap.lower->region, *gap.upper->region, pieces, linked);
+  auto old_bent = tiles_at_forks(*old.lower, *old.upper, *old.pieces, *old.linked);
+  if (bent.empty() && old_bent.empty()) return;
+  bent.resize(linked.tiles.size());
+  old_bent.resize(old.linked->tiles.size());
+  std::vector<std::uint32_t> places;  // of old tiles, as they were bent
+  for (std::uint32_t bound = 0; const bool is_bent : old_bent)
+    places.push_back(is_bent ? Origin::none : bound++);
+  std::vector<std::uint32_t> kept;
+  for (std::size_t t = 0; t < gap.kept.size(); ++t) {
+    if (bent[t]) continue;
+    if (old_bent[gap.kept[t]]) {  // by a fork that touched it
+      gap.before = nullptr;
+      return;
+    }
+    kept.push_back(places[gap.kept[t]]);
+  }
+  std::vector<bool> is_kept(old.tiles->tiles.size());
+  for (const std::uint32_t tile : kept) is_kept[tile] = true;
+  gap.kept = std::move(kept);
+  gap.dropped.clear();
+  for (std::uint32_t t = 0; t < is_kept.size(); ++t)
+    if (!is_kept[t]) gap.dropped.push_back(t);
 }
 
 /// Gives a slab that is new or changed its number.

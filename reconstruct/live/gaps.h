@@ -67,8 +67,9 @@ class Gaps {
   [[nodiscard]] bool has_neighbours(std::size_t i) const;
   [[nodiscard]] SlabPieces view(std::size_t i) const;
   void link(std::size_t i);
-  [[nodiscard]] Shapes shapes_around(std::size_t i) const;
+  [[nodiscard]] Shapes shapes_around(std::size_t i);
   void bend(std::size_t i);
+  static void keep_unbent(Gap& gap, const TileSet& linked, const Pieces& pieces);
   void freeze(Gap& gap);
 
   LiveStack& stack_;

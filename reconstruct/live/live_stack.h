@@ -30,7 +30,7 @@ struct Station {
   std::shared_ptr<const Slice> slice;   ///< null beyond the ends
   std::uint32_t number = Origin::none;  ///< in order of arrival
   std::shared_ptr<const Region> region;
-  std::shared_ptr<const SliceShape> shape;  ///< where the surface is bent
+  std::shared_ptr<const SliceShape> shape;  ///< where the surface is bent nearby
   std::vector<Defect> repairs;
   Rim rim;
 };
@@ -45,11 +45,14 @@ struct LiveSlab {
   std::shared_ptr<const FrozenSlab> frozen;
   std::shared_ptr<const Pieces> found;                      ///< before ends were linked
   EndPlan ends;                                             ///< what was linked and leant
-  std::array<std::shared_ptr<const SliceShape>, 4> shapes;  ///< what it was bent by
+  std::array<std::shared_ptr<const SliceShape>, 4> shapes;  ///< what it was bent by, if it was
   Faces faces;
   Faces bottom;  ///< of the caps
   Faces top;
   bool is_sewn_as_tiled = false;  ///< sewing has doubled nothing of it
+
+  /// Whether it depends on the slices before and after it by its form.
+  [[nodiscard]] bool is_bent() const { return shapes[1] != nullptr; }
 };
 
 /// All that a Reconstruction knows.

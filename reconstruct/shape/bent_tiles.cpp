@@ -33,6 +33,10 @@ constexpr double finest_share = 5e-4;
 constexpr int most_levels = 5;
 constexpr double finest_nearness = 1e-4;
 
+/// The tolerance of tiles that are straight but at their forks. With usual_share there are three
+/// times as many new vertices, for no less distance.
+constexpr double fork_share = 4 * usual_share;
+
 /// How far a vertex may go: new ones as a share of their edge, those of forks and ends as a share
 /// of the slab's height.
 constexpr double most_of_edge = 0.35;
@@ -41,6 +45,9 @@ constexpr double most_of_end = 1;
 
 /// Edges that are nearer than that share of the slab's height are not flipped.
 constexpr double least_off = 0.003;
+
+/// What is as good but for rounding, as a share of the slab's height.
+constexpr double equal_share = 1e-9;
 
 /// By what share of the slab's height a diagonal may be further off, if the thinner one of its
 /// triangles is better by 1.
@@ -129,6 +136,7 @@ class Bending {
         height_(slab.upper.z - slab.lower.z),
         lower_count_(static_cast<std::uint32_t>(lower_.points.size())),
         contour_count_(lower_count_ + static_cast<std::uint32_t>(upper_.points.size())),
+        plain_bound_(contour_count_ + static_cast<std::uint32_t>(plain.inner.size())),
         queue_(Nearer{this}) {
     for (const OutlinePoint& point : outlines) facing_.push_back(unit(point.facing));
     facing_.resize(contour_count_ + plain.inner.size());
@@ -177,10 +185,19 @@ class Bending {
   [[nodiscard]] std::pair<Vec3, Vec3> ends(const Candidate& edge) const {
     return std::minmax(place(edge.from), place(edge.to));
   }
+  [[nodiscard]] std::pair<Vec3, Vec3> ends(const HalfEdges::Diamond& diamond) const {
+    return std::minmax(place(diamond.a), place(diamond.b));
+  }
 
   /// A contour edge; or one that rounding has left in the slice plane.
   [[nodiscard]] bool in_one_slice(std::uint32_t a, std::uint32_t b) const {
     return std::max(a, b) < contour_count_ && (a < lower_count_) == (b < lower_count_);
+  }
+
+  [[nodiscard]] bool is_at_forks() const { return fineness_.bends == Bends::at_forks; }
+
+  [[nodiscard]] bool is_plain_inner(std::uint32_t node) const {
+    return node >= contour_count_ && node < plain_bound_;
   }
 
   [[nodiscard]] Point facing(std::uint32_t a, std::uint32_t b) const {
@@ -274,6 +291,7 @@ class Bending {
     const std::uint32_t a = half_edges_.from(half);
     const std::uint32_t b = half_edges_.to(half);
     if (in_one_slice(a, b) || edge(a, b).level >= fineness_.levels) return;
+    if (is_at_forks() && !is_plain_inner(a) && !is_plain_inner(b)) return;
     const double distance = off(a, b, piece_[half / 3]);
     if (distance > fineness_.tolerance) queue_.push({distance, half, a, b});
   }
@@ -311,6 +329,7 @@ class Bending {
   void flip_all() {
     const std::uint32_t count = half_edges_.count();
     for (std::uint32_t half = count; half-- > 0;) doubtful_.push_back(half);
+    if (is_at_forks()) flip_best_first(any_number);
     while (!doubtful_.empty()) flip_next();
     for (std::uint32_t half = 0; half < count; ++half) {
       const std::uint32_t twin = half_edges_.twin(half);
@@ -322,6 +341,7 @@ class Bending {
   /// split.
   void flip_doubtful() {
     std::vector<std::uint32_t> seen;
+    if (is_at_forks()) seen = flip_best_first(most_looks);
     while (!doubtful_.empty() && seen.size() < most_looks) {
       seen.push_back(doubtful_.back());
       flip_next();
@@ -329,6 +349,58 @@ class Bending {
     seen.insert(seen.end(), doubtful_.begin(), doubtful_.end());
     doubtful_.clear();
     for (const std::uint32_t half : seen) enqueue(half);
+  }
+
+  /// An edge that would better be the other diagonal, as it was when that was found out.
+  struct Flip {
+    double gain;
+    std::uint32_t half;
+    HalfEdges::Diamond diamond;
+  };
+  struct LessGain {
+    const Bending* bending;
+    bool operator()(const Flip& a, const Flip& b) const {
+      if (a.gain != b.gain) return a.gain < b.gain;
+      return bending->ends(b.diamond) < bending->ends(a.diamond);
+    }
+  };
+
+  /// Whether to flip another edge of the two tiles is as good, but for rounding.
+  [[nodiscard]] bool has_equal_rival(const Flip& flip) {
+    const auto is_rival = [&](std::uint32_t half) {
+      return may_flip(half) && std::abs(gain_of_flip(half) - flip.gain) <= equal_share * height_;
+    };
+    const std::uint32_t twin = half_edges_.twin(flip.half);
+    const auto [first, second] = half_edges_.others(flip.half);
+    const auto [third, fourth] = half_edges_.others(twin);
+    return is_rival(first) || is_rival(second) || is_rival(third) || is_rival(fourth);
+  }
+
+  /// Flips the doubtful edges, and those that flips make doubtful, after no more than `most` looks.
+  /// Returns all that were looked at.
+  std::vector<std::uint32_t> flip_best_first(std::size_t most) {
+    std::vector<std::uint32_t> seen;
+    std::priority_queue<Flip, std::vector<Flip>, LessGain> flips(LessGain{this});
+    const auto look_at = [&](std::uint32_t half) {
+      cdt::spend();
+      seen.push_back(half);
+      if (!may_flip(half)) return;
+      const double gain = gain_of_flip(half);
+      if (gain > equal_share * height_) flips.push({gain, half, half_edges_.diamond(half)});
+    };
+    std::ranges::for_each(doubtful_, look_at);
+    doubtful_.clear();
+    while (!flips.empty() && seen.size() < most) {
+      const Flip best = flips.top();
+      flips.pop();
+      if (half_edges_.twin(best.half) == Origin::none ||
+          half_edges_.diamond(best.half) != best.diamond || !may_flip(best.half) ||
+          has_equal_rival(best))
+        continue;
+      edge(best.diamond.left, best.diamond.right).was_in = true;
+      std::ranges::for_each(half_edges_.flip(best.half), look_at);
+    }
+    return seen;
   }
 
   void flip_next() {
@@ -459,6 +531,7 @@ class Bending {
   double height_;
   std::uint32_t lower_count_;
   std::uint32_t contour_count_;
+  std::uint32_t plain_bound_;  // of the nodes that the plain tiles have
   std::vector<Point> facing_;  // of each node: outwards as contours do there, or 0
   EdgeIndex index_;            // of edges: places in the next one
   std::vector<BentEdge> edges_;
@@ -472,6 +545,10 @@ Fineness fineness(double height, std::optional<double> tolerance) {
   if (tolerance && *tolerance > 0)
     return {std::max(*tolerance, finest_share * height), most_levels, finest_nearness};
   return {usual_share * height, usual_levels, usual_nearness};
+}
+
+Fineness fork_fineness(double height) {
+  return {fork_share * height, 1, usual_nearness, Bends::at_forks};
 }
 
 BentTiles bend(const BentSlab& slab, std::span<const OutlinePoint> outlines, const TileSet& plain,

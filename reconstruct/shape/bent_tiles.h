@@ -28,16 +28,22 @@ struct BentTiles {
   std::vector<VertexMove> moves;  ///< of each inner vertex
 };
 
+/// What is bent: each edge as far as it is off; or what the plain tiles have between the slices.
+enum class Bends : std::uint8_t { everywhere, at_forks };
+
 /// How near the tiles come to the smooth surface.
 struct Fineness {
   double tolerance;  ///< edges whose middle is further off are split
   int levels;        ///< at most that many times over
   double nearness;   ///< places are found as near as that, as a share of the slab's height
+  Bends bends = Bends::everywhere;
 };
 
 /// That of a slab of some height: `tolerance`, but no finer than a 2000th of the height; not set or
 /// 0: what its slices are worth.
 [[nodiscard]] Fineness fineness(double height, std::optional<double> tolerance);
+/// That of tiles which are straight but at their forks.
+[[nodiscard]] Fineness fork_fineness(double height);
 
 /// Bends tiles, wherever others are.
 ///
@@ -49,6 +55,9 @@ struct Fineness {
 ///
 /// Where edges are split does not depend on the tolerance, which only says when to stop: of two
 /// tolerances with the same levels the smaller one gives all vertices of the other, and more.
+/// At forks alone: the inner vertices of the plain tiles are moved, edges at them are split, and
+/// edges are flipped, the best first: but for rounding, no numbers of tiles or nodes decide.
+///
 /// `firm`: nodes of the plain tiles at whose tiles nothing is flipped; empty if there are none.
 /// Without flips, straightened tiles cover what the plain ones did.
 /// Cost: O(n log n) for n tiles in the result, in practice.

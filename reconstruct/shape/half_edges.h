@@ -34,9 +34,16 @@ class HalfEdges {
     std::uint32_t b;
     std::uint32_t left;
     std::uint32_t right;
+
+    friend bool operator==(const Diamond&, const Diamond&) = default;
   };
   [[nodiscard]] Diamond diamond(std::uint32_t half) const {
     return {from(half), to(half), apex(half), apex(twin(half))};
+  }
+
+  /// The other half-edges of its tile.
+  [[nodiscard]] std::array<std::uint32_t, 2> others(std::uint32_t half) const {
+    return {next(half), before(half)};
   }
 
   /// Puts a node into an edge and joins it with both apexes. Returns the half-edges of all edges of

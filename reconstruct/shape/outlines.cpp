@@ -33,4 +33,11 @@ std::vector<OutlinePoint> outline_points(const Region& region) {
   return found;
 }
 
+std::vector<OutlinePoint> outline_points(const Region& lower, const Region& upper) {
+  std::vector<OutlinePoint> points = outline_points(lower);
+  const std::vector<OutlinePoint> above = outline_points(upper);
+  points.insert(points.end(), above.begin(), above.end());
+  return points;
+}
+
 }  // namespace loft

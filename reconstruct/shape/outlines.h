@@ -18,5 +18,7 @@ struct OutlinePoint {
 
 /// Of each point of a region.
 [[nodiscard]] std::vector<OutlinePoint> outline_points(const Region& region);
+/// Of those of two, one after the other.
+[[nodiscard]] std::vector<OutlinePoint> outline_points(const Region& lower, const Region& upper);
 
 }  // namespace loft

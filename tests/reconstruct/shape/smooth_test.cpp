@@ -93,7 +93,8 @@ TEST(Smooth, ALargerToleranceMakesFewerTriangles) {
       EXPECT_LE(bent.n_faces(), finer) << tolerance;
       finer = bent.n_faces();
     }
-    EXPECT_EQ(finer, make(slices, false).n_faces());
+    // Straight tiles are split where they fork.
+    EXPECT_LE(finer, make(slices, false).n_faces());
   }
 }
 
