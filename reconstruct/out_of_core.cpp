@@ -152,12 +152,15 @@ class GroupByGroup {
     if (matched_bound_ < slab_bound_ + 2 * behind) return;
     const std::size_t first = std::exchange(slab_bound_, matched_bound_ - behind);
     std::vector<TileSet> slabs(slab_bound_ - first);
+    std::vector<std::vector<bool>> at_forks(slabs.size());  // tiles, if these alone are bent
     if (options_.reports_slabs) reports_.resize(slab_bound_);
-    for_each_index(slabs.size(), options_.threads,
-                   [&](std::size_t i, unsigned) { slabs[i] = link_slab(first + i); });
-    add_shapes(first, slabs);
     for_each_index(slabs.size(), options_.threads, [&](std::size_t i, unsigned) {
-      slabs[i] = bend_slab(first + i, std::move(slabs[i]));
+      slabs[i] = link_slab(first + i);
+      if (!options_.smooth) at_forks[i] = find_forks(first + i, slabs[i]);
+    });
+    add_shapes(first, at_forks);
+    for_each_index(slabs.size(), options_.threads, [&](std::size_t i, unsigned) {
+      slabs[i] = bend_slab(first + i, std::move(slabs[i]), at_forks[i]);
     });
     settle_lines(first, slabs);
     linking_.drop_below(slab_bound_ == 0 ? 0 : slab_bound_ - 1);
@@ -187,16 +190,15 @@ class GroupByGroup {
     return tiles;
   }
 
-  [[nodiscard]] bool is_bent(std::size_t i, const TileSet& tiles) {
-    return options_.smooth ||
-           !tiles_at_forks(regions_[i], regions_[i + 1], linking_.pieces(i), tiles).empty();
+  [[nodiscard]] std::vector<bool> find_forks(std::size_t i, const TileSet& tiles) {
+    return tiles_at_forks(regions_[i], regions_[i + 1], linking_.pieces(i), tiles);
   }
 
   /// What bending wants to know of the regions around slabs.
-  void add_shapes(std::size_t first, std::span<const TileSet> slabs) {
+  void add_shapes(std::size_t first, std::span<const std::vector<bool>> at_forks) {
     std::vector<std::pair<const std::size_t, SliceShape>*> added;
-    for (std::size_t i = first; i < first + slabs.size(); ++i) {
-      if (!is_bent(i, slabs[i - first])) continue;
+    for (std::size_t i = first; i < first + at_forks.size(); ++i) {
+      if (!options_.smooth && at_forks[i - first].empty()) continue;
       for (std::size_t k = i == 0 ? 0 : i - 1; k < i + 3; ++k) {
         if (!regions_.has(k)) continue;
         const auto [shape, is_new] = shapes_.try_emplace(k);
@@ -208,17 +210,17 @@ class GroupByGroup {
     });
   }
 
-  [[nodiscard]] TileSet bend_slab(std::size_t i, TileSet tiles) {
+  [[nodiscard]] TileSet bend_slab(std::size_t i, TileSet tiles, const std::vector<bool>& at_forks) {
     const Region& lower = regions_[i];
     const Region& upper = regions_[i + 1];
-    if (is_bent(i, tiles)) {
+    if (options_.smooth || !at_forks.empty()) {
       Surroundings around{};
       for (std::size_t k = 0; k < around.size(); ++k)
         if (i + k >= 1 && regions_.has(i + k - 1)) around[k] = &shapes_.at(i + k - 1);
       const Pieces& pieces = linking_.pieces(i);
       tiles = options_.smooth ? smooth(lower, upper, around, pieces, std::move(tiles),
                                        options_.smooth_tolerance)
-                              : bend_forks(lower, upper, around, pieces, tiles);
+                              : bend_forks(lower, upper, around, pieces, tiles, at_forks);
     }
     return refine(lower, upper, std::move(tiles), options_);
   }

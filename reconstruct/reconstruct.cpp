@@ -213,11 +213,14 @@ void smooth_all(const std::vector<Region>& regions, Slabs& slabs, const Options&
 
 /// Straight tiles follow four slices where they fork.
 void bend_all_forks(const std::vector<Region>& regions, Slabs& slabs, unsigned threads) {
+  std::vector<std::vector<bool>> at_forks(slabs.tiles.size());
+  for_each_index(at_forks.size(), threads, [&](std::size_t i, unsigned) {
+    at_forks[i] = tiles_at_forks(regions[i], regions[i + 1], slabs.pieces[i], slabs.tiles[i]);
+  });
   std::vector<std::size_t> forked;
   std::vector<bool> is_near(regions.size());
-  for (std::size_t i = 0; i < slabs.tiles.size(); ++i) {
-    if (tiles_at_forks(regions[i], regions[i + 1], slabs.pieces[i], slabs.tiles[i]).empty())
-      continue;
+  for (std::size_t i = 0; i < at_forks.size(); ++i) {
+    if (at_forks[i].empty()) continue;
     forked.push_back(i);
     for (std::size_t k = i == 0 ? 0 : i - 1; k < std::min(i + 3, regions.size()); ++k)
       is_near[k] = true;
@@ -229,7 +232,7 @@ void bend_all_forks(const std::vector<Region>& regions, Slabs& slabs, unsigned t
   for_each_index(forked.size(), threads, [&](std::size_t f, unsigned) {
     const std::size_t i = forked[f];
     slabs.tiles[i] = bend_forks(regions[i], regions[i + 1], surroundings(shapes, i),
-                                slabs.pieces[i], slabs.tiles[i]);
+                                slabs.pieces[i], slabs.tiles[i], at_forks[i]);
   });
 }
 

@@ -161,7 +161,7 @@ class Decoding {
 /// Unpacks slice after slice.
 class SliceUnpacker {
  public:
-  SliceUnpacker(std::string_view bytes, Packing packing, std::uint64_t slices,
+  SliceUnpacker(std::string_view bytes, PixelPacking packing, std::uint64_t slices,
                 std::uint64_t slice_size)
       : bytes_(bytes),
         packing_(std::move(packing)),
@@ -194,7 +194,7 @@ class SliceUnpacker {
   }
 
   std::string_view bytes_;
-  Packing packing_;
+  PixelPacking packing_;
   std::uint64_t size_;
   std::vector<char> slice_;  // the last one that was unpacked
   std::optional<InflateStream> stream_;
@@ -210,7 +210,7 @@ void set_pixels(Volume& volume, const RawPixels& pixels) {
   };
 }
 
-void set_packed_pixels(Volume& volume, const RawPixels& pixels, const Packing& packing) {
+void set_packed_pixels(Volume& volume, const RawPixels& pixels, const PixelPacking& packing) {
   const Decoding decoding(volume, pixels);
   const std::uint64_t size = byte_count(volume, pixels.type).value();
   if (volume.layers > 1 && !pixels.layers_first) {

@@ -50,7 +50,7 @@ inline constexpr std::size_t longest_header = std::size_t{16} << 20U;
 void set_pixels(Volume& volume, const RawPixels& pixels);
 
 /// Where pixels are in what gzip or zlib has packed.
-struct Packing {
+struct PixelPacking {
   std::uint64_t before = 0;  ///< bytes in front of them, unpacked
   std::string name;          ///< of the file, for messages
   std::uint64_t offset = 0;  ///< of the packed bytes in it, for messages
@@ -59,7 +59,7 @@ struct Packing {
 /// The same for pixels whose bytes are packed. They are unpacked slice by slice, as these are asked
 /// for, but for whole layers behind each other, which are in memory. Throws InputError where the
 /// packed bytes cannot hold so many; Volume::read does where they do not.
-void set_packed_pixels(Volume& volume, const RawPixels& pixels, const Packing& packing);
+void set_packed_pixels(Volume& volume, const RawPixels& pixels, const PixelPacking& packing);
 
 /// Decides what the values are, once all else is there: the options' level counts, then pixels that
 /// are no whole numbers but from 0 to 1 are shares, of which half is inside; else they are labels.

@@ -188,33 +188,35 @@ void Gaps::bend(std::size_t i) {
   auto tiles = linked;
   const Region& lower = *gap.lower->region;
   const Region& upper = *gap.upper->region;
-  if (options.smooth || !tiles_at_forks(lower, upper, *pieces, *linked).empty()) {
+  std::vector<bool> at_forks;  // if these alone are bent
+  if (!options.smooth) at_forks = tiles_at_forks(lower, upper, *pieces, *linked);
+  if (options.smooth || !at_forks.empty()) {
     gap.made->shapes = shapes_around(i);
     Surroundings around{};
     for (std::size_t k = 0; k < around.size(); ++k) around[k] = gap.made->shapes[k].get();
     tiles = std::make_shared<const TileSet>(
         options.smooth ? smooth(lower, upper, around, *pieces, *linked, options.smooth_tolerance)
-                       : bend_forks(lower, upper, around, *pieces, *linked));
+                       : bend_forks(lower, upper, around, *pieces, *linked, at_forks));
   }
-  if (gap.before != nullptr) keep_unbent(gap, *linked, *pieces);
+  if (gap.before != nullptr) keep_unbent(gap, linked->tiles.size(), at_forks);
   if (options.max_edge || options.target_edge)
     tiles = std::make_shared<const TileSet>(refine(lower, upper, *tiles, options));
   FrozenSlab frozen{{0, lower.z, upper.z}, gap.lower->region, gap.upper->region};
   frozen.volume = loft::volume(lower, upper, *tiles);
   frozen.tiles = std::move(tiles);
   frozen.linked = std::move(linked);
+  frozen.at_forks = std::move(at_forks);
   frozen.pieces = std::move(pieces);
   gap.made->frozen = std::make_shared<const FrozenSlab>(std::move(frozen));
 }
 
 /// A slab that keeps some of its tiles keeps those at forks no longer: they may be bent otherwise.
 /// The others come first in it, in their order, before and now.
-void Gaps::keep_unbent(Gap& gap, const TileSet& linked, const Pieces& pieces) {
+void Gaps::keep_unbent(Gap& gap, std::size_t tile_count, std::vector<bool> bent) {
   const FrozenSlab& old = *gap.before->frozen;
-  auto bent = tiles_at_forks(*gap.lower->region, *gap.upper->region, pieces, linked);
-  auto old_bent = tiles_at_forks(*old.lower, *old.upper, *old.pieces, *old.linked);
+  std::vector<bool> old_bent = old.at_forks;
   if (bent.empty() && old_bent.empty()) return;
-  bent.resize(linked.tiles.size());
+  bent.resize(tile_count);
   old_bent.resize(old.linked->tiles.size());
   std::vector<std::uint32_t> places;  // of old tiles, as they were bent
   for (std::uint32_t bound = 0; const bool is_bent : old_bent)

@@ -69,7 +69,7 @@ class Gaps {
   void link(std::size_t i);
   [[nodiscard]] Shapes shapes_around(std::size_t i);
   void bend(std::size_t i);
-  static void keep_unbent(Gap& gap, const TileSet& linked, const Pieces& pieces);
+  static void keep_unbent(Gap& gap, std::size_t tile_count, std::vector<bool> bent);
   void freeze(Gap& gap);
 
   LiveStack& stack_;

@@ -45,7 +45,8 @@ struct FrozenSlab {
   std::shared_ptr<const Region> upper{};
   std::shared_ptr<const TileSet> tiles{};  ///< as they are in the surface
   std::shared_ptr<const TileSet>
-      linked{};  ///< as linking left them: the same, unless they were bent
+      linked{};                  ///< as linking left them: the same, unless they were bent
+  std::vector<bool> at_forks{};  ///< which of the latter were bent, if not all
   std::shared_ptr<const Pieces> pieces{};  ///< of the latter
   double volume = 0;                       ///< enclosed between the slices
   bool has_bottom_cap = false;             ///< what is flat below and above the tiles

@@ -14,8 +14,11 @@ namespace loft {
 class SignedDistance {
  public:
   struct Value {
-    double distance;     ///< negative inside
-    cdt::Point outward;  ///< unit vector in which the distance grows; 0 upon the boundary's corners
+    double distance;  ///< negative inside
+    /// Unit vector in which the distance grows; 0 upon the boundary's corners. Where several places
+    /// of the boundary are equally near, the mean of theirs: rounding does not choose among them.
+    cdt::Point outward;
+    cdt::Point foot;  ///< the nearest place of the boundary; of several any
   };
 
   SignedDistance() = default;

@@ -42,7 +42,7 @@ double cost_of(const Stretch& a, const Stretch& b, double direction_weight) {
 
 /// Pairs of a row, and what it costs at least to come to them.
 struct Row {
-  Range range;
+  ColumnRange range;
   const double* costs;
   const double* least;
 
@@ -55,7 +55,7 @@ struct Row {
 void go_on(const PairGrid& grid, std::size_t row_index, const Row& from, const Row& to,
            double* least) {
   const auto [first, last] = to.range;
-  const Range before = from.range;
+  const ColumnRange before = from.range;
   const double* const column_steps = grid.column_steps(first);
   const double row_step = grid.row_step(row_index);
   for (std::size_t j = std::max(first, before.first); j < std::min(last, before.last); ++j)
@@ -104,7 +104,8 @@ std::size_t go_back(const PairGrid& grid, std::size_t row_index, const Row& abov
 }
 
 /// What courses that have come to some columns cost at least, but for the rows, until `end`.
-double least_from(const double* come, Range range, std::size_t end, const CostToCome& to_come) {
+double least_from(const double* come, ColumnRange range, std::size_t end,
+                  const CostToCome& to_come) {
   double least = infinity;
   for (std::size_t j = range.first; j < range.last; ++j)
     least = std::min(least, come[j - range.first] + to_come.of_columns(j, end));
@@ -118,7 +119,7 @@ class Sweep {
 
   /// The next row. `least` is infinite, but 0 where courses start; it has to stay where it is until
   /// the row after it is done.
-  void go_to(Range range, double* least) {
+  void go_to(ColumnRange range, double* least) {
     cdt::spend(1 + (range.last - range.first) / pairs_of_step);
     const Row row{range, grid_.costs(row_, range, memory_), least};
     if (before_.least != nullptr) go_on(grid_, row_, before_, row, least);
@@ -171,7 +172,8 @@ double PairGrid::cost(std::size_t row, std::size_t column) const {
                         : table_[2 * row * columns_ + column];
 }
 
-const double* PairGrid::costs(std::size_t row, Range range, std::vector<double>& memory) const {
+const double* PairGrid::costs(std::size_t row, ColumnRange range,
+                              std::vector<double>& memory) const {
   row %= rows();
   std::size_t column = range.first % columns_;
   const std::size_t count = range.last - range.first;
@@ -210,11 +212,11 @@ CostToCome::CostToCome(const PairGrid& grid) {
     of_columns_[j] = of_columns_[j + 1] + step(least_of_columns, j, *grid.column_steps(j + 1));
 }
 
-bool may_cost_less(const PairGrid& grid, Range starts, std::span<const Range> ranges,
+bool may_cost_less(const PairGrid& grid, ColumnRange starts, std::span<const ColumnRange> ranges,
                    const CostToCome& to_come, double most) {
-  const Range ends{starts.first + grid.columns(), starts.last + grid.columns()};
+  const ColumnRange ends{starts.first + grid.columns(), starts.last + grid.columns()};
   Sweep sweep(grid, 0);
-  Range range{};
+  ColumnRange range{};
   std::vector<double> least;
   std::vector<double> least_before;
   for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -231,12 +233,12 @@ bool may_cost_less(const PairGrid& grid, Range starts, std::span<const Range> ra
   return *std::min_element(end + ends.first, end + ends.last) < most;
 }
 
-Courses::Courses(const PairGrid& grid, std::size_t first_row, std::vector<Range> ranges)
+Courses::Courses(const PairGrid& grid, std::size_t first_row, std::vector<ColumnRange> ranges)
     : grid_(grid), first_row_(first_row), ranges_(std::move(ranges)), starts_{0} {
   fill_forward(nullptr, infinity);
 }
 
-Courses::Courses(const PairGrid& grid, std::vector<Range> ranges, const CostToCome& to_come,
+Courses::Courses(const PairGrid& grid, std::vector<ColumnRange> ranges, const CostToCome& to_come,
                  double most)
     : grid_(grid), first_row_(0), ranges_(std::move(ranges)), starts_{0} {
   fill_forward(&to_come, most);
@@ -244,7 +246,7 @@ Courses::Courses(const PairGrid& grid, std::vector<Range> ranges, const CostToCo
 
 void Courses::fill_forward(const CostToCome* to_come, double most) {
   std::size_t count = 0;
-  for (const Range range : ranges_) count += range.last - range.first;
+  for (const ColumnRange range : ranges_) count += range.last - range.first;
   forward_.reserve(count);
   Sweep sweep(grid_, first_row_);
   for (std::size_t i = 0; i < ranges_.size(); ++i) {
@@ -277,7 +279,7 @@ std::vector<double> Courses::fill_backward() const {
     const double* const column_steps = grid_.column_steps(first);
     double* const row = backward.data() + starts_[i];
     if (i + 1 < ranges_.size()) {
-      const Range after = ranges_[i + 1];
+      const ColumnRange after = ranges_[i + 1];
       const double* const below = backward.data() + starts_[i + 1];
       const double row_step = grid_.row_step(first_row_ + i + 1);
       for (std::size_t j = std::max(first, after.first); j < std::min(last, after.last); ++j)
@@ -300,8 +302,8 @@ std::vector<double> Courses::fill_backward() const {
   return backward;
 }
 
-std::vector<Range> Courses::course() const {
-  std::vector<Range> course(ranges_.size());
+std::vector<ColumnRange> Courses::course() const {
+  std::vector<ColumnRange> course(ranges_.size());
   std::vector<double> memory;
   std::vector<double> memory_above;
   const auto row_at = [&](std::size_t i, std::vector<double>& where) {

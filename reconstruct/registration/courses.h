@@ -10,7 +10,7 @@
 namespace loft {
 
 /// Columns of a row: of a stretch of the lower loop, those of the upper one.
-struct Range {
+struct ColumnRange {
   std::size_t first;
   std::size_t last;  ///< behind the range
 };
@@ -31,7 +31,7 @@ class PairGrid {
 
   [[nodiscard]] double cost(std::size_t row, std::size_t column) const;
   /// Of a row's pairs in a range of no more than a round and a column; in `memory`, if need be.
-  [[nodiscard]] const double* costs(std::size_t row, Range range,
+  [[nodiscard]] const double* costs(std::size_t row, ColumnRange range,
                                     std::vector<double>& memory) const;
   /// The way from the middle of the stretch before to that of this one, as a share of its loop.
   [[nodiscard]] double row_step(std::size_t row) const { return row_steps_[row % rows()]; }
@@ -83,8 +83,9 @@ class CostToCome {
 /// False if no course costs less than `most` of those that start in some columns of row 0, no more
 /// than there are, and stay in given ranges. A lower bound (as if each could end where any other
 /// does), that of one column is exact. Cost: that of the pairs in the ranges, or of some of them.
-[[nodiscard]] bool may_cost_less(const PairGrid& grid, Range starts, std::span<const Range> ranges,
-                                 const CostToCome& to_come, double most);
+[[nodiscard]] bool may_cost_less(const PairGrid& grid, ColumnRange starts,
+                                 std::span<const ColumnRange> ranges, const CostToCome& to_come,
+                                 double most);
 
 /// All courses once round both loops, from a pair to the same one a round later, that stay in given
 /// ranges: what the least costs, and through which pairs it goes.
@@ -93,16 +94,17 @@ class Courses {
   /// Starts at the first range's first column; the last range ends one round later. Keeps a
   /// reference to the grid. Precondition: ranges of rows that follow each other overlap, or lie
   /// beside each other. Cost: that of the pairs in the ranges.
-  Courses(const PairGrid& grid, std::size_t first_row, std::vector<Range> ranges);
+  Courses(const PairGrid& grid, std::size_t first_row, std::vector<ColumnRange> ranges);
   /// The same from row 0 on, which is left once no course can cost less than `most`.
-  Courses(const PairGrid& grid, std::vector<Range> ranges, const CostToCome& to_come, double most);
+  Courses(const PairGrid& grid, std::vector<ColumnRange> ranges, const CostToCome& to_come,
+          double most);
 
   /// False if that was left.
   [[nodiscard]] bool is_found() const { return is_found_; }
   /// What the least course costs.
   [[nodiscard]] double least() const { return forward_.back(); }
   /// The columns of one of the least courses, row after row.
-  [[nodiscard]] std::vector<Range> course() const;
+  [[nodiscard]] std::vector<ColumnRange> course() const;
   /// Of some rows, counted from the first, the columns of all least courses, where no more than
   /// `rounding` counts as the same. `take(row, column)` for each.
   template <typename Take>
@@ -121,7 +123,7 @@ class Courses {
 
   const PairGrid& grid_;
   std::size_t first_row_;
-  std::vector<Range> ranges_;
+  std::vector<ColumnRange> ranges_;
   std::vector<std::size_t> starts_;  // of each row in forward_
   std::vector<double> forward_;      // the least cost from the start, by pairs
   bool is_found_ = true;

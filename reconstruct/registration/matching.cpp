@@ -26,20 +26,21 @@ constexpr std::size_t slack = 12;
 /// are counted from some rounds before, so that there is room below the first.
 class Band {
  public:
-  Band(std::vector<Range> rows, std::size_t columns) : rows_(std::move(rows)), columns_(columns) {
+  Band(std::vector<ColumnRange> rows, std::size_t columns)
+      : rows_(std::move(rows)), columns_(columns) {
     std::size_t least = rows_[0].first;
-    for (const Range range : rows_) least = std::min(least, range.first);
+    for (const ColumnRange range : rows_) least = std::min(least, range.first);
     const std::size_t rounds = least / columns_;
-    for (Range& range : rows_) {
+    for (ColumnRange& range : rows_) {
       range.first = range.first + 2 * columns_ - rounds * columns_;
       range.last = range.last + 2 * columns_ - rounds * columns_;
     }
   }
 
   [[nodiscard]] std::size_t row_count() const { return rows_.size(); }
-  [[nodiscard]] Range operator[](std::size_t row) const {
+  [[nodiscard]] ColumnRange operator[](std::size_t row) const {
     const std::size_t rounds = row / rows_.size() * columns_;
-    const Range range = rows_[row % rows_.size()];
+    const ColumnRange range = rows_[row % rows_.size()];
     return {range.first + rounds, range.last + rounds};
   }
 
@@ -47,7 +48,7 @@ class Band {
   [[nodiscard]] Band widened() const {
     const std::size_t count = rows_.size();
     const std::size_t rows = std::min(slack, count);
-    std::vector<Range> wide;
+    std::vector<ColumnRange> wide;
     for (std::size_t i = 0; i < count; ++i)
       wide.push_back({(*this)[i + count - rows].first - columns_ - std::min(slack, columns_),
                       (*this)[i + rows].last + slack});
@@ -55,10 +56,10 @@ class Band {
   }
 
   /// What is of it in a round from a pair on.
-  [[nodiscard]] std::vector<Range> round(std::size_t row, std::size_t column) const {
-    std::vector<Range> ranges;
+  [[nodiscard]] std::vector<ColumnRange> round(std::size_t row, std::size_t column) const {
+    std::vector<ColumnRange> ranges;
     for (std::size_t i = 0; i <= rows_.size(); ++i) {
-      const Range range = (*this)[row + i];
+      const ColumnRange range = (*this)[row + i];
       ranges.push_back(
           {std::max(range.first, column), std::min(range.last, column + columns_ + 1)});
     }
@@ -66,15 +67,15 @@ class Band {
   }
 
  private:
-  std::vector<Range> rows_;
+  std::vector<ColumnRange> rows_;
   std::size_t columns_;
 };
 
 /// A course from a row of the first round on, as a band. Its last row is its first one, a round
 /// later.
-Band band_of(const std::vector<Range>& course, std::size_t first_row, std::size_t columns) {
+Band band_of(const std::vector<ColumnRange>& course, std::size_t first_row, std::size_t columns) {
   const std::size_t count = course.size() - 1;
-  std::vector<Range> rows(count);
+  std::vector<ColumnRange> rows(count);
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t row = first_row + i;
     const std::size_t rounds = row / count * columns;
@@ -92,11 +93,11 @@ class LeastCourse {
 
   [[nodiscard]] Band find() {
     const std::size_t columns = grid_.columns();
-    const std::vector<Range> all(grid_.rows() + 1, {0, 2 * columns});
+    const std::vector<ColumnRange> all(grid_.rows() + 1, {0, 2 * columns});
     guess();
     const auto first = course(0, all);
-    const std::vector<Range> low = first.value_or(all);
-    std::vector<Range> high = all;
+    const std::vector<ColumnRange> low = first.value_or(all);
+    std::vector<ColumnRange> high = all;
     if (first)
       for (std::size_t i = 0; i < high.size(); ++i)
         high[i] = {low[i].first + columns, low[i].last + columns};
@@ -110,12 +111,12 @@ class LeastCourse {
     const std::size_t rows = grid_.rows();
     const std::size_t columns = grid_.columns();
     const auto round_from = [&](std::size_t column) {
-      return std::vector<Range>(rows + 1, {column, column + columns + 1});
+      return std::vector<ColumnRange>(rows + 1, {column, column + columns + 1});
     };
     std::vector<double> memory;
     const double* const costs = grid_.costs(0, {0, columns}, memory);
     const auto nearest = static_cast<std::size_t>(std::min_element(costs, costs + columns) - costs);
-    const std::vector<Range> there = Courses(grid_, 0, round_from(nearest)).course();
+    const std::vector<ColumnRange> there = Courses(grid_, 0, round_from(nearest)).course();
     first_row_ = rows / 2;
     const Courses better(grid_, first_row_, round_from(there[first_row_].first));
     least_ = better.least();
@@ -123,8 +124,9 @@ class LeastCourse {
   }
 
   /// The least one from a column on, in some ranges; none if it costs no less than what is known.
-  std::optional<std::vector<Range>> course(std::size_t start, std::vector<Range> ranges) {
-    for (Range& range : ranges)
+  std::optional<std::vector<ColumnRange>> course(std::size_t start,
+                                                 std::vector<ColumnRange> ranges) {
+    for (ColumnRange& range : ranges)
       range = {std::max(range.first, start), std::min(range.last, start + grid_.columns() + 1)};
     const Courses courses(grid_, std::move(ranges), to_come_, (1 - rounding) * least_);
     if (!courses.is_found()) return {};
@@ -136,11 +138,11 @@ class LeastCourse {
     return courses.course();
   }
 
-  void search(std::size_t from, std::size_t to, const std::vector<Range>& low,
-              const std::vector<Range>& high) {
+  void search(std::size_t from, std::size_t to, const std::vector<ColumnRange>& low,
+              const std::vector<ColumnRange>& high) {
     if (to - from < 2) return;
     const std::size_t middle = from + (to - from) / 2;
-    std::vector<Range> between;
+    std::vector<ColumnRange> between;
     for (std::size_t i = 0; i < low.size(); ++i) between.push_back({low[i].first, high[i].last});
     if (to - from > 2 &&
         !may_cost_less(grid_, {from + 1, to}, between, to_come_, (1 - rounding) * least_))
@@ -154,7 +156,7 @@ class LeastCourse {
   CostToCome to_come_;
   double least_ = 0;
   std::size_t first_row_ = 0;  // of the best one
-  std::vector<Range> best_;
+  std::vector<ColumnRange> best_;
 };
 
 /// The least courses in a band through a pair of another one, which lies in it but for whole
@@ -162,7 +164,7 @@ class LeastCourse {
 Courses courses_through(const PairGrid& grid, const Band& band, const Band& other,
                         std::size_t row) {
   const std::size_t columns = grid.columns();
-  const Range range = other[row];
+  const ColumnRange range = other[row];
   const std::size_t middle = range.first + (range.last - 1 - range.first) / 2;
   const std::size_t first = band[row].first;
   std::size_t column = first + (middle % columns + columns - first % columns) % columns;
@@ -220,9 +222,9 @@ Band refined(const Band& band, std::size_t run_columns, const PairGrid& grid,
     const std::size_t inside = run % run_columns * columns_of_run;
     return run / run_columns * grid.columns() + std::min(inside, grid.columns());
   };
-  std::vector<Range> fine;
+  std::vector<ColumnRange> fine;
   for (std::size_t i = 0; i < grid.rows(); ++i) {
-    const Range range = band[i / rows_of_run];
+    const ColumnRange range = band[i / rows_of_run];
     fine.push_back({place(range.first), place(range.last - 1) + columns_of_run});
   }
   return {std::move(fine), grid.columns()};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <queue>
 #include <utility>
@@ -33,9 +34,10 @@ constexpr double finest_share = 5e-4;
 constexpr int most_levels = 5;
 constexpr double finest_nearness = 1e-4;
 
-/// The tolerance of tiles that are straight but at their forks. With usual_share there are three
-/// times as many new vertices, for no less distance.
+/// The same for tiles that are straight but at their forks. Half as coarse there are three times as
+/// many new vertices, and places are found with more steps, for no less distance.
 constexpr double fork_share = 4 * usual_share;
+constexpr double fork_nearness = 6 * usual_nearness;
 
 /// How far a vertex may go: new ones as a share of their edge, those of forks and ends as a share
 /// of the slab's height.
@@ -47,7 +49,7 @@ constexpr double most_of_end = 1;
 constexpr double least_off = 0.003;
 
 /// What is as good but for rounding, as a share of the slab's height.
-constexpr double equal_share = 1e-9;
+constexpr double equal_share = 1e-6;
 
 /// By what share of the slab's height a diagonal may be further off, if the thinner one of its
 /// triangles is better by 1.
@@ -148,10 +150,14 @@ class Bending {
     note_edges();
     flip_all();
     while (!queue_.empty()) {
-      const Candidate next = queue_.top();
-      queue_.pop();
-      if (half_edges_.from(next.half) == next.from && half_edges_.to(next.half) == next.to)
+      std::size_t count = 0;
+      for (const Candidate& next : take_best(queue_, &Candidate::off)) {
+        if (half_edges_.from(next.half) != next.from || half_edges_.to(next.half) != next.to)
+          continue;
         split(next.half);
+        ++count;
+      }
+      flip_doubtful(count * most_looks);
     }
     go_beyond();
     return std::move(bent_);
@@ -192,6 +198,20 @@ class Bending {
   /// A contour edge; or one that rounding has left in the slice plane.
   [[nodiscard]] bool in_one_slice(std::uint32_t a, std::uint32_t b) const {
     return std::max(a, b) < contour_count_ && (a < lower_count_) == (b < lower_count_);
+  }
+
+  /// Takes the first of a queue, and all that are as good but for rounding: at forks it must not
+  /// decide which of them is first.
+  template <class Queue, class Value>
+  [[nodiscard]] std::vector<typename Queue::value_type> take_best(Queue& queue, Value value) const {
+    std::vector<typename Queue::value_type> best;
+    const double least =
+        std::invoke(value, queue.top()) - (is_at_forks() ? equal_share * height_ : 0);
+    do {
+      best.push_back(queue.top());
+      queue.pop();
+    } while (is_at_forks() && !queue.empty() && std::invoke(value, queue.top()) >= least);
+    return best;
   }
 
   [[nodiscard]] bool is_at_forks() const { return fineness_.bends == Bends::at_forks; }
@@ -310,8 +330,7 @@ class Bending {
       added.loose = is_half ? bent.loose : freedom_.looseness(node, end);
     }
     const auto around = half_edges_.split(half, node);
-    doubtful_.assign(around.begin(), around.end());
-    flip_doubtful();
+    doubtful_.insert(doubtful_.end(), around.begin(), around.end());
   }
 
   std::uint32_t add_middle(std::uint32_t a, std::uint32_t b, const BentEdge& bent) {
@@ -337,12 +356,12 @@ class Bending {
     }
   }
 
-  /// Flips edges as long as that helps and does not go far; notes those of them that are to be
-  /// split.
-  void flip_doubtful() {
+  /// Flips edges as long as that helps and does not take more than `most` looks; notes those of
+  /// them that are to be split.
+  void flip_doubtful(std::size_t most) {
     std::vector<std::uint32_t> seen;
-    if (is_at_forks()) seen = flip_best_first(most_looks);
-    while (!doubtful_.empty() && seen.size() < most_looks) {
+    if (is_at_forks()) seen = flip_best_first(most);
+    while (!doubtful_.empty() && seen.size() < most) {
       seen.push_back(doubtful_.back());
       flip_next();
     }
@@ -365,10 +384,16 @@ class Bending {
     }
   };
 
+  [[nodiscard]] bool is_there(const Flip& flip) const {
+    return half_edges_.twin(flip.half) != Origin::none &&
+           half_edges_.diamond(flip.half) == flip.diamond;
+  }
+
   /// Whether to flip another edge of the two tiles is as good, but for rounding.
   [[nodiscard]] bool has_equal_rival(const Flip& flip) {
     const auto is_rival = [&](std::uint32_t half) {
-      return may_flip(half) && std::abs(gain_of_flip(half) - flip.gain) <= equal_share * height_;
+      const double equal = equal_share * height_;
+      return may_flip(half) && std::abs(gain_of_flip(half, flip.gain - equal) - flip.gain) <= equal;
     };
     const std::uint32_t twin = half_edges_.twin(flip.half);
     const auto [first, second] = half_edges_.others(flip.half);
@@ -385,20 +410,19 @@ class Bending {
       cdt::spend();
       seen.push_back(half);
       if (!may_flip(half)) return;
-      const double gain = gain_of_flip(half);
-      if (gain > equal_share * height_) flips.push({gain, half, half_edges_.diamond(half)});
+      const double least = equal_share * height_;
+      const double gain = gain_of_flip(half, least);
+      if (gain > least) flips.push({gain, half, half_edges_.diamond(half)});
     };
     std::ranges::for_each(doubtful_, look_at);
     doubtful_.clear();
     while (!flips.empty() && seen.size() < most) {
-      const Flip best = flips.top();
-      flips.pop();
-      if (half_edges_.twin(best.half) == Origin::none ||
-          half_edges_.diamond(best.half) != best.diamond || !may_flip(best.half) ||
-          has_equal_rival(best))
-        continue;
-      edge(best.diamond.left, best.diamond.right).was_in = true;
-      std::ranges::for_each(half_edges_.flip(best.half), look_at);
+      std::vector<Flip> best = take_best(flips, &Flip::gain);
+      std::erase_if(best, [&](const Flip& flip) {
+        return !is_there(flip) || !may_flip(flip.half) || has_equal_rival(flip);
+      });
+      for (const Flip& next : best)
+        if (is_there(next)) std::ranges::for_each(flip(next.half), look_at);
     }
     return seen;
   }
@@ -407,30 +431,39 @@ class Bending {
     cdt::spend();
     const std::uint32_t half = doubtful_.back();
     doubtful_.pop_back();
-    if (!may_flip(half) || !(gain_of_flip(half) > 0)) return;
-    const auto [a, b, left, right] = half_edges_.diamond(half);
-    edge(left, right).was_in = true;
-    const auto around = half_edges_.flip(half);
+    if (!may_flip(half) || !(gain_of_flip(half, 0) > 0)) return;
+    const auto around = flip(half);
     doubtful_.insert(doubtful_.end(), around.begin(), around.end());
   }
 
-  /// Whether an edge is off, nothing holds it, and the other diagonal would be a proper one.
+  std::array<std::uint32_t, 5> flip(std::uint32_t half) {
+    const auto [a, b, left, right] = half_edges_.diamond(half);
+    const int level = edge(a, b).level;
+    BentEdge& made = edge(left, right);
+    made.was_in = true;
+    made.level = level;
+    return half_edges_.flip(half);
+  }
+
+  /// Whether an edge is off, nothing holds it, and the other diagonal would be a proper one. Where
+  /// the smooth surface is comes last: that takes longest.
   [[nodiscard]] bool may_flip(std::uint32_t half) {
     const std::uint32_t twin = half_edges_.twin(half);
     if (twin == Origin::none) return false;
     const auto [a, b, left, right] = half_edges_.diamond(half);
     const auto& tiles = bent_.tiles.tiles;
     if (in_one_slice(a, b) || in_one_slice(left, right) || left == right ||
-        tiles[half / 3].kind != tiles[twin / 3].kind || is_firm(a, b) || is_firm(left, right) ||
-        edge(a, b).loose < 1 || off(a, b, piece_[half / 3]) <= least_off * height_)
+        tiles[half / 3].kind != tiles[twin / 3].kind || is_firm(a, b) || is_firm(left, right))
       return false;
     const double longest = most_of_diagonal * length(minus(place(b), place(a)));
-    if (length(minus(place(right), place(left))) > longest || edge(left, right).was_in)
+    if (length(minus(place(right), place(left))) > longest || edge(a, b).loose < 1 ||
+        edge(left, right).was_in)
       return false;
     return are_turned_alike({normal(a, b, left, false), normal(b, a, right, false)},
                             {normal(right, left, a, false), normal(left, right, b, false)}) &&
            are_turned_alike({normal(a, b, left, true), normal(b, a, right, true)},
-                            {normal(right, left, a, true), normal(left, right, b, true)});
+                            {normal(right, left, a, true), normal(left, right, b, true)}) &&
+           off(a, b, piece_[half / 3]) > least_off * height_;
   }
 
   [[nodiscard]] bool is_firm(std::uint32_t a, std::uint32_t b) const {
@@ -446,17 +479,14 @@ class Bending {
   }
 
   /// By how much nearer the other diagonal is, and better formed: by twice the area of the thinner
-  /// triangle, over the square of its longest edge.
-  [[nodiscard]] double gain_of_flip(std::uint32_t half) {
+  /// triangle, over the square of its longest edge. Not looked into where it is `least` at most.
+  [[nodiscard]] double gain_of_flip(std::uint32_t half, double least) {
     const auto [a, b, left, right] = half_edges_.diamond(half);
     const std::uint32_t piece = piece_[half / 3];
-    const int level = edge(a, b).level;
-    BentEdge& other = edge(left, right);
-    other.level = std::max(other.level, level);
-    const double better = off(a, b, piece) - off(left, right, piece);
     const double form_before = worse_form({a, b, left}, {b, a, right});
     const double form_after = worse_form({right, left, a}, {left, right, b});
-    return better + worth_of_form * height_ * (form_after - form_before);
+    const double most = off(a, b, piece) + worth_of_form * height_ * (form_after - form_before);
+    return most > least ? most - off(left, right, piece) : most;
   }
 
   [[nodiscard]] double worse_form(const std::array<std::uint32_t, 3>& first,
@@ -507,6 +537,7 @@ class Bending {
       }
       const std::uint32_t twin = half_edges_.twin(half);
       if (twin == Origin::none || half > twin || std::max(a, b) < contour_count_) continue;
+      off(a, b, piece_[half / 3]);
       const BentEdge& bent = edge(a, b);
       for (const std::uint32_t end : {a, b})
         if (end >= contour_count_) add(found[end - contour_count_], bent);
@@ -548,7 +579,7 @@ Fineness fineness(double height, std::optional<double> tolerance) {
 }
 
 Fineness fork_fineness(double height) {
-  return {fork_share * height, 1, usual_nearness, Bends::at_forks};
+  return {fork_share * height, 1, fork_nearness, Bends::at_forks};
 }
 
 BentTiles bend(const BentSlab& slab, std::span<const OutlinePoint> outlines, const TileSet& plain,

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <utility>
 
+#include "mesh/vec3.h"
 #include "reconstruct/link/replace.h"
 #include "reconstruct/shape/bent_tiles.h"
 #include "reconstruct/shape/freedom.h"
+#include "reconstruct/shape/half_edges.h"
 #include "reconstruct/shape/outlines.h"
 #include "reconstruct/shape/straighten.h"
 
@@ -63,9 +65,10 @@ class OrderedForks {
     std::uint32_t piece;
   };
 
-  /// The corner with the smallest coordinates first.
+  /// The corner with the smallest coordinates first. None is upright (see Uprights): what was a
+  /// wall between contours that were moved over each other is as good as a sheet.
   [[nodiscard]] Sortable sortable(std::uint32_t t, std::uint32_t piece) const {
-    Sortable made{{}, tiles_.tiles[t], piece};
+    Sortable made{{}, {tiles_.tiles[t].nodes, FaceKind::sheet}, piece};
     const auto place = [&](std::uint32_t node) {
       return place_of(lower_, upper_, tiles_.inner, node);
     };
@@ -145,12 +148,39 @@ class Uprights {
   double contact_;
 };
 
+/// Of those of the tiles that are asked for: which lie in a plane with one beside them, but for
+/// rounding, so that the diagonal of the two could as well be the other one.
+std::vector<bool> find_ties(const Region& lower, const Region& upper, const TileSet& tiles,
+                            const std::vector<bool>& asked) {
+  std::vector<Tile> some;
+  std::vector<std::size_t> numbers;
+  for (std::size_t t = 0; t < asked.size(); ++t) {
+    if (!asked[t]) continue;
+    some.push_back(tiles.tiles[t]);
+    numbers.push_back(t);
+  }
+  const double least = contact(lower, upper);
+  const HalfEdges half_edges(some);
+  std::vector<bool> ties(asked.size());
+  for (std::uint32_t half = 0; half < half_edges.count(); ++half) {
+    const std::uint32_t twin = half_edges.twin(half);
+    if (twin == Origin::none || half > twin) continue;
+    const auto [a, b, left, right] = half_edges.diamond(half);
+    const auto from_a = [&, start = place_of(lower, upper, tiles.inner, a)](std::uint32_t node) {
+      return minus(place_of(lower, upper, tiles.inner, node), start);
+    };
+    const Vec3 normal = cross(from_a(b), from_a(left));
+    if (std::abs(dot(normal, from_a(right))) <= least * length(normal))
+      ties[numbers[half / 3]] = ties[numbers[twin / 3]] = true;
+  }
+  return ties;
+}
+
+bool is_steiner(const InnerVertex& vertex) { return vertex.kind == VertexKind::steiner; }
+
 /// The pieces that go from slice to slice, have Steiner vertices, and contours that do not meet.
-/// None if none does.
-std::vector<bool> forking(const Region& lower, const Region& upper, const Pieces& pieces,
-                          const TileSet& tiles) {
-  const auto is_steiner = [](const InnerVertex& v) { return v.kind == VertexKind::steiner; };
-  if (!tiles.is_linked || std::ranges::none_of(tiles.inner, is_steiner)) return {};
+std::vector<bool> find_forks(const Region& lower, const Region& upper, const Pieces& pieces,
+                             const TileSet& tiles) {
   const std::uint32_t first_inner = contour_count(lower, upper);
   const Uprights uprights(lower, upper);
   std::vector<bool> forks(pieces.pieces.size());
@@ -164,39 +194,64 @@ std::vector<bool> forking(const Region& lower, const Region& upper, const Pieces
     if (uprights.has_any(tiles.tiles[t])) meets[piece] = true;
   }
   for (std::size_t i = 0; i < forks.size(); ++i) forks[i] = forks[i] && !meets[i];
-  if (std::ranges::find(forks, true) == forks.end()) return {};
   return forks;
 }
+
+/// Tiles of some pieces, as many rings of them around their inner vertices, without those that are
+/// left out.
+class AroundInner {
+ public:
+  AroundInner(std::uint32_t first_inner, const Pieces& pieces, const TileSet& tiles,
+              const std::vector<bool>& some)
+      : first_inner_(first_inner), pieces_(pieces), tiles_(tiles), some_(some) {}
+
+  [[nodiscard]] std::vector<bool> tiles(int most_rings, const std::vector<bool>& left_out) const {
+    std::vector<bool> near(first_inner_ + tiles_.inner.size());  // nodes
+    std::fill(near.begin() + first_inner_, near.end(), true);
+    std::vector<bool> found(tiles_.tiles.size());
+    for (int ring = 0; ring < most_rings; ++ring) {
+      std::vector<bool> next = near;
+      for (std::size_t t = 0; t < found.size(); ++t) {
+        if (!some_[pieces_.of_tile[t]] || left_out[t]) continue;
+        const auto& nodes = tiles_.tiles[t].nodes;
+        if (std::ranges::none_of(nodes, [&](std::uint32_t node) { return near[node]; })) continue;
+        found[t] = true;
+        for (const std::uint32_t node : nodes) next[node] = true;
+      }
+      near = std::move(next);
+    }
+    return found;
+  }
+
+ private:
+  std::uint32_t first_inner_;
+  const Pieces& pieces_;
+  const TileSet& tiles_;
+  const std::vector<bool>& some_;
+};
 
 }  // namespace
 
 std::vector<bool> tiles_at_forks(const Region& lower, const Region& upper, const Pieces& pieces,
                                  const TileSet& tiles) {
+  if (!tiles.is_linked || std::ranges::none_of(tiles.inner, is_steiner)) return {};
+  std::vector<bool> forks = find_forks(lower, upper, pieces, tiles);
   const std::uint32_t first_inner = contour_count(lower, upper);
-  const std::vector<bool> forks = forking(lower, upper, pieces, tiles);
-  if (forks.empty()) return {};
-  std::vector<bool> near(first_inner + tiles.inner.size());  // nodes
-  std::fill(near.begin() + first_inner, near.end(), true);
-  std::vector<bool> found(tiles.tiles.size());
-  for (int ring = 0; ring < rings; ++ring) {
-    std::vector<bool> next = near;
-    for (std::size_t t = 0; t < found.size(); ++t) {
-      const auto& nodes = tiles.tiles[t].nodes;
-      if (!forks[pieces.of_tile[t]] ||
-          std::ranges::none_of(nodes, [&](std::uint32_t node) { return near[node]; }))
-        continue;
-      found[t] = true;
-      for (const std::uint32_t node : nodes) next[node] = true;
-    }
-    near = std::move(next);
+  const AroundInner around(first_inner, pieces, tiles, forks);
+  std::vector<bool> ties(tiles.tiles.size());
+  ties = find_ties(lower, upper, tiles, around.tiles(rings + 1, ties));
+  for (std::size_t t = 0; t < ties.size(); ++t) {
+    const auto is_inner = [&](std::uint32_t node) { return node >= first_inner; };
+    if (ties[t] && std::ranges::any_of(tiles.tiles[t].nodes, is_inner))
+      forks[pieces.of_tile[t]] = false;
   }
+  std::vector<bool> found = around.tiles(rings, ties);
+  if (std::ranges::find(found, true) == found.end()) return {};
   return found;
 }
 
 TileSet bend_forks(const Region& lower, const Region& upper, const Surroundings& slices,
-                   const Pieces& pieces, const TileSet& tiles) {
-  const std::vector<bool> at_forks = tiles_at_forks(lower, upper, pieces, tiles);
-  if (at_forks.empty()) return tiles;
+                   const Pieces& pieces, const TileSet& tiles, const std::vector<bool>& at_forks) {
   Pieces own = only(pieces, at_forks);
   const TileSet some = tiles_of(lower, upper, tiles, at_forks, true);
   const TileSet plain = OrderedForks(lower, upper, some).ordered(own.of_tile);

@@ -69,13 +69,17 @@ double share_of_second(const Chord& first, const Chord& second) {
 /// Negative if it is not.
 double depth_around(const SliceShape& before, const SliceShape& slice, bool is_solid, Point middle,
                     double depth) {
-  const Point outward = slice.distance.at(middle).outward;
+  const SignedDistance::Value nearest = slice.distance.at(middle);
+  if (nearest.distance == 0) return -1;
+  const auto way_from_foot = [&](const SignedDistance::Value& value) {
+    return Point{(middle.x - value.foot.x) / value.distance,
+                 (middle.y - value.foot.y) / value.distance};
+  };
+  const Point outward = way_from_foot(nearest);
   double sum = 0;
   for (const double side : {1.0, -1.0}) {
-    const Point facing{side * outward.x, side * outward.y};
-    const auto [distance, way] = slice.distance.at(middle, facing);
-    const Point foot{middle.x - distance * way.x, middle.y - distance * way.y};
-    const double around = before.depth(is_solid, foot, way);
+    const auto there = slice.distance.at(middle, {side * outward.x, side * outward.y});
+    const double around = before.depth(is_solid, there.foot, way_from_foot(there));
     if (around < 0) return -1;
     sum += around;
   }
@@ -134,7 +138,7 @@ SmoothPassage::Distances SmoothPassage::distances(const Vec3& p, Point facing, s
   for (std::size_t i = first; i <= last; ++i) {
     if (!has(i)) continue;
     const double share = (z(i) - p[2]) / (z(2) - z(1));
-    const auto [distance, outward] =
+    const auto [distance, outward, foot] =
         slices_[i]->distance.at({p[0] + share * shift_.x, p[1] + share * shift_.y}, facing);
     found.values[i] = distance;
     found.outward[i] = outward;
@@ -213,7 +217,7 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
 }
 
 Sample SmoothEnd::at(const Vec3& p) const {
-  const auto [distance, outward] = slice_->distance.at({p[0], p[1]});
+  const auto [distance, outward, foot] = slice_->distance.at({p[0], p[1]});
   const double from_axis = depth_ - std::min(std::abs(distance), depth_);
   const double squared = std::max(depth_ * depth_ - from_axis * from_axis, 1e-12 * depth_ * depth_);
   const double root = std::sqrt(trend_ * trend_ + 4 * squared);

@@ -107,7 +107,7 @@ Surroundings known_of(const Piece& piece, const BentSlab& slab, Point way) {
     // What is hollow there, or bent around it, may be so beyond as well.
     if (slice.depth(piece.is_solid, middle) <= 0) return;
     const double share = (beyond->z - slice.z) / height;
-    const Point there{middle.x + share * way.x, middle.y + share * way.y};
+    const Point there{middle.x - share * way.x, middle.y - share * way.y};
     if (beyond->depth(piece.is_solid, there) <= -radius) beyond = nullptr;
   };
   look(known[0], *slab.slices[1], slab.lower, Level::lower);

@@ -55,7 +55,8 @@ class ForkedSlab {
     return tiles_at_forks(lower(), upper(), pieces_, tiles_);
   }
   [[nodiscard]] TileSet bent() const {
-    return bend_forks(lower(), upper(), around_, pieces_, tiles_);
+    const std::vector<bool> there = at_forks();
+    return there.empty() ? tiles_ : bend_forks(lower(), upper(), around_, pieces_, tiles_, there);
   }
   void shuffle(std::mt19937_64& random) {
     std::vector<std::size_t> order(tiles_.tiles.size());
