@@ -5,9 +5,10 @@ set(build ${PROJECT_BINARY_DIR})
 
 add_test(NAME style.layers COMMAND sh ${root}/tests/layers.sh)
 add_test(NAME style.format COMMAND sh ${root}/tests/style.sh format)
+add_test(NAME style.names COMMAND sh ${root}/tests/style.sh names)
 add_test(NAME style.tidy COMMAND sh ${root}/tests/style.sh tidy ${build})
 add_test(NAME style.alone COMMAND sh ${root}/tests/style.sh alone ${build})
-set_tests_properties(style.layers style.format style.tidy style.alone PROPERTIES LABELS style)
+set_tests_properties(style.layers style.format style.names style.tidy style.alone PROPERTIES LABELS style)
 # They keep all cores busy by themselves.
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 set_tests_properties(style.tidy style.alone PROPERTIES PROCESSORS ${cores} TIMEOUT 1200)

@@ -3,7 +3,9 @@
 # Checks the sources against .clang-format and .clang-tidy, and that each names what it needs.
 #   sh tests/style.sh format         to repair: git ls-files '*.h' '*.cpp' | xargs clang-format -i
 #   sh tests/style.sh tidy BUILD     BUILD is a folder for what it needs
-#   sh tests/style.sh alone BUILD    every source and every header compiles by itself
+#   sh tests/style.sh alone BUILD    every source and every header compiles by itself; with
+#                                    ALONE_OF=K every K-th, others at another commit
+#   sh tests/style.sh names          no two types of one namespace have one name
 set -eu
 cd "$(dirname "$0")/.."
 
@@ -55,6 +57,21 @@ standard_module() {
   echo '}'
 }
 
+# Every K-th line; which ones the commit decides.
+turn() {
+  commit=$(git rev-parse --short=6 HEAD 2> /dev/null || echo 0)
+  awk -v of="${ALONE_OF:-1}" -v turn="$((0x$commit))" '(NR + turn) % of == 0'
+}
+
+# The types that headers define, with their namespaces: NAME HEADER.
+types() {
+  for header in $(ours '*.h' $libraries app); do
+    awk '/^namespace / { space = $2 }
+         /^(struct|class|enum class) [A-Za-z0-9]+( final)?( :.*)? [{]$/ {
+           sub(/^enum /, ""); print space "::" $2, FILENAME }' "$header"
+  done
+}
+
 case ${1:-} in
   format)
     { ours '*.h' $libraries app tests samples bench python
@@ -74,12 +91,17 @@ case ${1:-} in
     includes=
     [ -z "$binding" ] || includes="-isystem $("${interpreter:-/usr/bin/python3}" -c "import sysconfig; print(sysconfig.get_path('include'))")"
     standard_module > "$2/alone/modules.txt"
-    { ours '*.cpp' $libraries app samples $binding; untried_headers; } |
+    { ours '*.cpp' $libraries app samples $binding; untried_headers; } | turn |
       xargs -n 4 -P "$(nproc)" clang++-16 -std=c++20 -DNDEBUG -fsyntax-only -w -I. $(pkg-config --cflags eigen3 cpp-httplib) $includes \
         -fmodules -fmodule-map-file="$2/alone/modules.txt" -fmodules-cache-path="$2/alone"
     ;;
+  names)
+    # The linker would take them for one, whatever they hold.
+    twice=$(types | LC_ALL=C sort | awk '$1 == name { print $1 ": " header ", " $2 } { name = $1; header = $2 }')
+    [ -z "$twice" ] || { echo "$twice"; exit 1; }
+    ;;
   *)
-    echo "usage: sh tests/style.sh format | tidy BUILD | alone BUILD" >&2
+    echo "usage: sh tests/style.sh format | tidy BUILD | alone BUILD | names" >&2
     exit 2
     ;;
 esac
