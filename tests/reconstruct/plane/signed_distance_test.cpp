@@ -96,6 +96,31 @@ TEST(SignedDistance, GrowsOutwards) {
   EXPECT_EQ(upon.outward, (cdt::Point{-1, 0}));
 }
 
+TEST(SignedDistance, GrowsTheMeanWayWherePlacesAreEquallyNear) {
+  for (const double angle : {0.0, 0.4, 2.0}) {  // rounding is another at each
+    SCOPED_TRACE(angle);
+    const auto turned = [&](cdt::Point p) {
+      return cdt::Point{p.x * std::cos(angle) - p.y * std::sin(angle),
+                        p.x * std::sin(angle) + p.y * std::cos(angle)};
+    };
+    Contour contour = stacks::square(1);
+    for (cdt::Point& p : contour.points) p = turned(p);
+    const SignedDistance square(boundary(clean_slice({0, {contour}})));
+    const auto between = square.at(turned({0.5, 0.5}));
+    EXPECT_NEAR(between.distance, -0.5, 1e-12);
+    EXPECT_NEAR(between.outward.x, turned({0.5, 0.5}).x, 1e-12);
+    EXPECT_NEAR(between.outward.y, turned({0.5, 0.5}).y, 1e-12);
+    const auto middle = square.at({0, 0});
+    EXPECT_NEAR(std::hypot(middle.outward.x, middle.outward.y), 0, 1e-12);
+    EXPECT_NEAR(std::hypot(middle.foot.x, middle.foot.y), 1, 1e-12);
+    const auto to_one = square.at(turned({0.5, 0.5}), turned({0.6, -0.8}));
+    EXPECT_NEAR(to_one.outward.x, turned({1, 0}).x, 1e-12);
+    EXPECT_NEAR(to_one.outward.y, turned({1, 0}).y, 1e-12);
+  }
+  const SignedDistance round(boundary(clean_slice({0, {stacks::circle(80, 3)}})));
+  EXPECT_EQ(round.at({0, 0}).outward, (cdt::Point{0, 0}));
+}
+
 // A corner that two loops share: which of its edges is nearest decides on the side.
 TEST(SignedDistance, KnowsItsSideAtCornersThatTouch) {
   const SignedDistance touching(
