@@ -62,7 +62,7 @@ class Ends {
         upper_(upper),
         tiles_(tiles),
         pieces_(pieces),
-        contour_count_(static_cast<std::uint32_t>(lower.points.size() + upper.points.size())) {}
+        contour_count_(contour_count(lower, upper)) {}
 
   void run(std::span<const EndLean> leans) {
     collect(leans);

@@ -43,7 +43,7 @@ class Replacing {
         tiles_(tiles),
         pieces_(pieces),
         replacements_(replacements),
-        contour_count_(static_cast<std::uint32_t>(lower.points.size() + upper.points.size())),
+        contour_count_(contour_count(lower, upper)),
         is_kept_(replacements.size(), true),
         by_(pieces.pieces.size(), Origin::none) {}
 

@@ -19,10 +19,7 @@ constexpr double rounding_of_lengths = 1e-9;
 class Easing {
  public:
   Easing(const Region& lower, const Region& upper, TileSet& tiles)
-      : lower_(lower),
-        upper_(upper),
-        tiles_(tiles),
-        contour_count_(static_cast<std::uint32_t>(lower.points.size() + upper.points.size())) {}
+      : lower_(lower), upper_(upper), tiles_(tiles), contour_count_(contour_count(lower, upper)) {}
 
   void run(double most) {
     const std::vector<Quad> quads = find_quads(lower_, upper_, tiles_);

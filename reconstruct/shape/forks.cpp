@@ -22,10 +22,6 @@ namespace {
 /// nearer by little, for more time; with one or two the sparse vessel tree loses volume.
 constexpr int rings = 4;
 
-std::uint32_t contour_count(const Region& lower, const Region& upper) {
-  return static_cast<std::uint32_t>(lower.points.size() + upper.points.size());
-}
-
 bool goes_through(const Piece& piece) { return !piece.is_end() && !piece.is_tip() && piece.bends; }
 
 /// The tiles at forks or the others, with the inner vertices that they have.

@@ -32,10 +32,7 @@ constexpr int most_attempts = 3;
 class Straightening {
  public:
   Straightening(const Region& lower, const Region& upper, BentTiles& bent)
-      : lower_(lower),
-        upper_(upper),
-        bent_(bent),
-        contour_count_(static_cast<std::uint32_t>(lower.points.size() + upper.points.size())) {}
+      : lower_(lower), upper_(upper), bent_(bent), contour_count_(contour_count(lower, upper)) {}
 
   /// Whether that is so.
   bool run() {
@@ -169,12 +166,11 @@ class Straightening {
 class Reaches {
  public:
   Reaches(const BentSlab& slab, const BentTiles& bent) : slab_(slab), bent_(bent) {
-    const auto contour_count = contour_count_of(slab);
+    const std::uint32_t contours = contour_count(slab.lower, slab.upper);
     for (const VertexMove& move : bent.moves) {
       double before = 0;  // of the ends of its edge, which are there already
       for (const std::uint32_t end : move.edge)
-        if (end != none && end >= contour_count)
-          before = std::max(before, far_[end - contour_count]);
+        if (end != none && end >= contours) before = std::max(before, far_[end - contours]);
       far_.push_back(before + length(move.way));
     }
   }
@@ -186,19 +182,15 @@ class Reaches {
     return BoxTree(boxes);
   }
 
-  [[nodiscard]] static std::uint32_t contour_count_of(const BentSlab& slab) {
-    return static_cast<std::uint32_t>(slab.lower.points.size() + slab.upper.points.size());
-  }
-
  private:
   [[nodiscard]] Box3 box(std::uint32_t node) const {
-    const std::uint32_t contour_count = contour_count_of(slab_);
-    if (node < contour_count) {
+    const std::uint32_t contours = contour_count(slab_.lower, slab_.upper);
+    if (node < contours) {
       const Vec3 place = place_of(slab_.lower, slab_.upper, {}, node);
       return {place, place};
     }
-    const Vec3& straight = bent_.moves[node - contour_count].straight;
-    const double far = far_[node - contour_count];
+    const Vec3& straight = bent_.moves[node - contours].straight;
+    const double far = far_[node - contours];
     return {minus(straight, {far, far, far}), along(straight, far, {1, 1, 1})};
   }
 
@@ -221,7 +213,7 @@ TileSet near_ones(const BentSlab& slab, const BentTiles& bent, const TileSet& ti
                              [&](std::uint32_t) { is_near = true; });
     if (is_near) near.tiles.push_back(tile);
   }
-  drop_unused_inner(near.tiles, near.inner, Reaches::contour_count_of(slab));
+  drop_unused_inner(near.tiles, near.inner, contour_count(slab.lower, slab.upper));
   return near;
 }
 
@@ -245,7 +237,7 @@ std::optional<TileSet> bend_apart(const BentSlab& slab, std::span<const OutlineP
     const std::size_t tile_count = bent.tiles.tiles.size();
     const std::size_t inner_count = bent.tiles.inner.size();
     if (!others.tiles.empty())
-      add_fixed(bent, near_ones(slab, bent, others), Reaches::contour_count_of(slab));
+      add_fixed(bent, near_ones(slab, bent, others), contour_count(slab.lower, slab.upper));
     Straightening straightening(slab.lower, slab.upper, bent);
     if (straightening.run()) {
       bent.tiles.tiles.resize(tile_count);

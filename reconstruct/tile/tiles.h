@@ -59,6 +59,12 @@ struct TileSet {
 void drop_unused_inner(std::vector<Tile>& tiles, std::vector<InnerVertex>& inner,
                        std::uint32_t contour_count);
 
+/// How many nodes are contour vertices: those of the lower region, then those of the upper one.
+/// Inner vertices come behind them.
+[[nodiscard]] inline std::uint32_t contour_count(const Region& lower, const Region& upper) {
+  return static_cast<std::uint32_t>(lower.points.size() + upper.points.size());
+}
+
 /// The surface between two neighbouring slices: a pure function
 /// of the two regions. It touches the slice planes in the contours alone, each contour edge is an
 /// edge of exactly one tile, unsplit; so slabs fit together whatever is on the other side.
