@@ -43,17 +43,17 @@ while [ "$round" -lt "$runs" ]; do
     run "loft-$name-union" "$loft" union "$workloads/$name.txt" 3
   done
   for name in layer_1000 layer_5000; do
-    run "loft-$name-four" "$loft" four "$workloads/${name}_a.txt" "$workloads/${name}_b.txt" 1
+    run "loft-$name-four" "$loft" four "$workloads/${name}_a.txt" "$workloads/${name}_b.txt" 3
   done
   for name in soup_200 soup_500 soup_1000; do
-    run "loft-$name-and" "$loft" and "$workloads/${name}_a.txt" "$workloads/${name}_b.txt" 1
+    run "loft-$name-and" "$loft" and "$workloads/${name}_a.txt" "$workloads/${name}_b.txt" 5
   done
   run loft-move "$loft" move "$workloads/discs_2000.txt" 17 400 300 100
   for map in 50m 10m; do
     [ -f "$workloads/world_$map.rings" ] || continue
     run "geos-$map" "$harness/gis_geos" "$workloads" "$map"
     set -- "$workloads/world_$map.rings" "$workloads/world_$map.names"
-    run "loft-$map-map" "$loft" map "$@" 1
+    run "loft-$map-map" "$loft" map "$@" 3
     run "loft-$map-points" "$loft" points "$@" "$workloads/points_100000.xy"
     run "loft-$map-lines" "$loft" lines "$@" "$workloads/rivers_500.txt"
   done

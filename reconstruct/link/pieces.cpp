@@ -14,14 +14,24 @@ namespace {
 
 using cdt::Point;
 
-/// Area and first moments of what a loop encloses, signed, about an origin.
+/// Of the second moments of area the larger one is larger than the other by that factor in what is
+/// long: an ellipse that is longer than wide by a tenth.
+constexpr double least_long = 1.2;
+
+/// Area, first and second moments of what a loop encloses, signed, about an origin.
 struct Moments {
   double area = 0;
   Point first;
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
 
   void operator+=(const Moments& other) {
     area += other.area;
     first = {first.x + other.first.x, first.y + other.first.y};
+    xx += other.xx;
+    xy += other.xy;
+    yy += other.yy;
   }
 };
 
@@ -44,10 +54,27 @@ Moments moments(const Region& region, std::span<const std::uint32_t> loop, std::
   for (std::size_t i = start + 1; i <= start + loop.size(); ++i) {
     const Point q = at(i);
     const double area = (p.x * q.y - p.y * q.x) / 2;
-    sum += {area, {area * (p.x + q.x) / 3, area * (p.y + q.y) / 3}};
+    sum += {area,
+            {area * (p.x + q.x) / 3, area * (p.y + q.y) / 3},
+            area * (p.x * p.x + p.x * q.x + q.x * q.x) / 6,
+            area * (2 * (p.x * p.y + q.x * q.y) + p.x * q.y + q.x * p.y) / 12,
+            area * (p.y * p.y + p.y * q.y + q.y * q.y) / 6};
     p = q;
   }
   return sum;
+}
+
+/// The unit vector across what is long, at right angles to the axis along which its area is spread
+/// most; 0 of what is about as wide as it is long. `centroid`: from the origin of the moments.
+Point across(const Moments& sum, Point centroid) {
+  const double xx = sum.xx / sum.area - centroid.x * centroid.x;
+  const double xy = sum.xy / sum.area - centroid.x * centroid.y;
+  const double yy = sum.yy / sum.area - centroid.y * centroid.y;
+  const double mean = (xx + yy) / 2;
+  const double deviation = std::hypot((xx - yy) / 2, xy);
+  if (!(mean + deviation > least_long * (mean - deviation))) return {};
+  const double along = std::atan2(2 * xy, xx - yy) / 2;
+  return {-std::sin(along), std::cos(along)};
 }
 
 /// Whether two slices of one loop each are linked for sure: only ends and forks have Steiner
@@ -126,8 +153,11 @@ bool measure(const Region& region, Footprint& footprint) {
   }
   footprint.radius = std::sqrt(outer / std::numbers::pi);
   footprint.centroid = origin;
-  if (sum.area != 0)
-    footprint.centroid = {origin.x + sum.first.x / sum.area, origin.y + sum.first.y / sum.area};
+  if (sum.area != 0) {
+    const Point centroid{sum.first.x / sum.area, sum.first.y / sum.area};
+    footprint.centroid = {origin.x + centroid.x, origin.y + centroid.y};
+    footprint.across = across(sum, centroid);
+  }
   return is_solid;
 }
 

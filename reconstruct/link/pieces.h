@@ -27,6 +27,7 @@ struct Footprint {
   double area = 0;                   ///< enclosed
   double radius = 0;                 ///< of the circle with the area that the outer loops enclose
   cdt::Point centroid;               ///< of that area
+  cdt::Point across;  ///< unit vector in which it is narrow; 0 if it is as wide as it is long
 
   [[nodiscard]] bool is_empty() const { return loops.empty(); }
 };

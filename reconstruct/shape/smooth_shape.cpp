@@ -32,7 +32,7 @@ struct Bounds {
   double lowest;
   double highest;
 };
-constexpr Bounds with_trend{0.1, 0.9};
+constexpr Bounds with_trend{0.1, 0.95};
 constexpr Bounds single{0.7, 0.75};
 constexpr Bounds unknown{0.5, 0.5};
 
@@ -49,6 +49,10 @@ double highest_by_trend(double height) {
 /// The steepest trend of an end, in depths: beyond, its shape hardly changes, but all that is left
 /// of its height is rounding.
 constexpr double most_trend = 1024;
+
+/// Ways to the boundary along a line are found that near, in depths, in so many steps at most.
+constexpr double nearness_of_way = 0.005;
+constexpr int steps_of_way = 20;
 
 /// From one slice to the next at one place: how the distance changes with z.
 struct Chord {
@@ -194,17 +198,22 @@ Sample SmoothPassage::even_at(const Vec3& p, Point facing) const {
 }
 
 SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle, double depth,
-                     Point lean)
-    : slice_(slices[slice]), lean_(lean), upwards_(slice == 1 ? 1 : -1), depth_(depth), trend_(0) {
+                     Point across, Point lean)
+    : slice_(slices[slice]),
+      is_solid_(slice_->distance.at(middle).distance < 0),
+      across_(across),
+      lean_(lean),
+      upwards_(slice == 1 ? 1 : -1),
+      depth_(depth),
+      trend_(0) {
   const double height = slices[2]->z - slices[1]->z;
   const SliceShape* before = slices[slice == 1 ? 0 : 3];
   Bounds bounds = before == nullptr ? unknown : single;
   bool has_trend = false;
   if (before != nullptr && !before->distance.is_empty()) {
     const double gap = std::abs(slice_->z - before->z);
-    const bool is_solid = slice_->distance.at(middle).distance < 0;
-    double there = before->depth(is_solid, middle);
-    if (there < 0) there = depth_around(*before, *slice_, is_solid, middle, depth);
+    double there = before->depth(is_solid_, middle);
+    if (there < 0) there = depth_around(*before, *slice_, is_solid_, middle, depth);
     if (there > 0) {
       trend_ = std::clamp((depth * depth - there * there - gap * gap) / gap, -most_trend * depth,
                           most_trend * depth);
@@ -216,14 +225,40 @@ SmoothEnd::SmoothEnd(const Surroundings& slices, std::size_t slice, Point middle
   scale_ = std::clamp(top, bounds.lowest * height, bounds.highest * height) / top;
 }
 
+/// By spheres around which there is no boundary (Hart, 1996).
+double SmoothEnd::way_out(Point place, Point way, double nearest) const {
+  double length = nearest;
+  for (int step = 0; step < steps_of_way; ++step) {
+    const double depth =
+        slice_->depth(is_solid_, {place.x + length * way.x, place.y + length * way.y});
+    length += std::max(depth, 0.0);
+    if (depth < nearness_of_way * depth_) break;
+  }
+  return length;
+}
+
+SmoothEnd::Power SmoothEnd::power(Point place) const {
+  const SignedDistance::Value boundary = slice_->distance.at(place);
+  const double side = is_solid_ ? -1 : 1;
+  const double depth = std::clamp(side * boundary.distance, 0.0, depth_);
+  const double slope = 2 * side * (depth_ - depth);
+  Power least{depth * (2 * depth_ - depth),
+              {slope * boundary.outward.x, slope * boundary.outward.y}};
+  if (across_ == Point{} || depth == 0) return least;
+  const double ahead = way_out(place, across_, depth);
+  const double behind = way_out(place, {-across_.x, -across_.y}, depth);
+  if (ahead * behind < least.value)
+    least = {ahead * behind, {(ahead - behind) * across_.x, (ahead - behind) * across_.y}};
+  return least;
+}
+
 Sample SmoothEnd::at(const Vec3& p) const {
-  const auto [distance, outward, foot] = slice_->distance.at({p[0], p[1]});
-  const double from_axis = depth_ - std::min(std::abs(distance), depth_);
-  const double squared = std::max(depth_ * depth_ - from_axis * from_axis, 1e-12 * depth_ * depth_);
-  const double root = std::sqrt(trend_ * trend_ + 4 * squared);
+  const auto [value, gradient] = power({p[0], p[1]});
+  const double root = std::sqrt(trend_ * trend_ + 4 * std::max(value, 1e-12 * depth_ * depth_));
   const double height = scale_ * (trend_ + root) / 2;
-  const double slope = scale_ * 2 * from_axis / root * (distance < 0 ? 1 : -1);
-  return {upwards_ * (p[2] - slice_->z) - height, {slope * outward.x, slope * outward.y, upwards_}};
+  const double slope = -scale_ / root;
+  return {upwards_ * (p[2] - slice_->z) - height,
+          {slope * gradient.x, slope * gradient.y, upwards_}};
 }
 
 }  // namespace loft

@@ -87,31 +87,46 @@ class SmoothPassage {
 /// The smooth surface over a part that is in one slice of a slab only, or over such a hole.
 ///
 /// A spheroid standing on the contours: at the depth d of a place below the part's boundary, as
-/// high as a ball is at r - d from its axis, r the part's largest depth. How fast the ball shrinks
+/// high as a ball is at r - d from its axis, r the part's largest depth. A part that is longer than
+/// wide gets lower towards its far ends: nowhere is it higher than the ball whose section has the
+/// chord across the part there (of a ball, too, the product of the two ways to the boundary along
+/// any chord through a place is the power of that place). How fast the ball shrinks
 /// is read from the slice before: how deep the part's middle is there; where that is hollow, how
 /// far its outline is around the part's own. The height is kept within the slab; where the slice
 /// before has nothing there it is 0.7 of it or a little more, where there is no slice before, half
 /// of it.
 class SmoothEnd {
  public:
-  /// On slice 1 or 2 of the surroundings; `middle` is where the part is deepest, `depth` deep. Its
-  /// axis goes sideways by `lean`, by height from that slice.
+  /// On slice 1 or 2 of the surroundings; `middle` is where the part is deepest, `depth` deep;
+  /// `across` is a unit vector across it, 0 if it is about as wide as it is long. Its axis goes
+  /// sideways by `lean`, by height from that slice.
   SmoothEnd(const Surroundings& slices, std::size_t slice, cdt::Point middle, double depth,
-            cdt::Point lean = {});
+            cdt::Point across, cdt::Point lean = {});
 
-  /// As if it did not lean.
+  /// As if it did not lean. Cost: that of a query of the slice; of a dozen where it is long.
   [[nodiscard]] Sample at(const Vec3& p) const;
   /// Where a place would be if it did not lean.
   [[nodiscard]] Vec3 upright(const Vec3& p) const { return sheared(p, -1); }
   [[nodiscard]] Vec3 leant(const Vec3& p) const { return sheared(p, 1); }
 
  private:
+  /// The square of the radius of the ball's section at its own slice, less that of the distance
+  /// from the ball's axis; and how it changes in the plane.
+  struct Power {
+    double value;
+    cdt::Point gradient;
+  };
+  [[nodiscard]] Power power(cdt::Point place) const;
+  /// From a place, `nearest` deep, along a unit vector to the boundary.
+  [[nodiscard]] double way_out(cdt::Point place, cdt::Point way, double nearest) const;
   [[nodiscard]] Vec3 sheared(const Vec3& p, double share) const {
     const double way = share * upwards_ * (p[2] - slice_->z);
     return {p[0] + way * lean_.x, p[1] + way * lean_.y, p[2]};
   }
 
   const SliceShape* slice_;
+  bool is_solid_;
+  cdt::Point across_;
   cdt::Point lean_;
   double upwards_;    // 1 or -1
   double depth_;      // of the middle

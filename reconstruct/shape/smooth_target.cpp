@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "mesh/vec3.h"
 #include "reconstruct/shape/ways.h"
@@ -96,6 +97,42 @@ Circle circle_around(const Region& region, const Footprint& footprint) {
   return circle;
 }
 
+/// From a slice to one beyond it, in which what goes on is `moved`.
+struct Beyond {
+  const SliceShape* slice;
+  const SliceShape* beyond;
+  Point moved;
+};
+
+/// Whether a way from a corner of an outline, between two edges, begins on the left of the outline.
+bool is_left(Point before, Point corner, Point after, Point way) {
+  const auto cross = [](Point a, Point b) { return a.x * b.y - a.y * b.x; };
+  const Point in{corner.x - before.x, corner.y - before.y};
+  const Point out{after.x - corner.x, after.y - corner.y};
+  return cross(in, out) >= 0 ? cross(in, way) > 0 && cross(out, way) > 0
+                             : cross(in, way) > 0 || cross(out, way) > 0;
+}
+
+/// Whether anything of a piece in one slice is over its footprint beyond: over a corner of that, or
+/// inside of it.
+bool goes_on(const Region& region, const Piece& piece, Level level, const Beyond& to) {
+  const auto is_over = [&](std::span<const std::uint32_t> loop, std::size_t i) {
+    const auto point = [&](std::size_t k) { return region.points[loop[k % loop.size()]]; };
+    const Point p = point(i);
+    const auto [distance, outward, there] =
+        to.beyond->distance.at({p.x + to.moved.x, p.y + to.moved.y});
+    if ((piece.is_solid ? -distance : distance) >= 0) return true;
+    const Point foot{there.x - to.moved.x, there.y - to.moved.y};
+    return to.slice->depth(piece.is_solid, foot) > 0 &&
+           is_left(point(i + loop.size() - 1), p, point(i + 1), {foot.x - p.x, foot.y - p.y}) ==
+               piece.is_solid;
+  };
+  for (const std::uint32_t loop : piece.footprint(level).loops)
+    for (std::size_t i = 0; i < region.loop(loop).size(); ++i)
+      if (is_over(region.loop(loop), i)) return true;
+  return false;
+}
+
 /// The slices that tell how a piece goes: not one in which it has not begun yet, or has ended.
 Surroundings known_of(const Piece& piece, const BentSlab& slab, Point way) {
   Surroundings known = slab.slices;
@@ -107,8 +144,11 @@ Surroundings known_of(const Piece& piece, const BentSlab& slab, Point way) {
     // What is hollow there, or bent around it, may be so beyond as well.
     if (slice.depth(piece.is_solid, middle) <= 0) return;
     const double share = (beyond->z - slice.z) / height;
-    const Point there{middle.x - share * way.x, middle.y - share * way.y};
-    if (beyond->depth(piece.is_solid, there) <= -radius) beyond = nullptr;
+    const Point moved{-share * way.x, -share * way.y};
+    const double depth = beyond->depth(piece.is_solid, {middle.x + moved.x, middle.y + moved.y});
+    if (depth > 0) return;
+    if (depth <= -radius || !goes_on(region, piece, level, {&slice, beyond, moved}))
+      beyond = nullptr;
   };
   look(known[0], *slab.slices[1], slab.lower, Level::lower);
   look(known[3], *slab.slices[2], slab.upper, Level::upper);
@@ -139,8 +179,9 @@ SmoothTarget::SmoothTarget(const BentSlab& slab, const TileSet& tiles, double ne
       const Point way = piece.registered_difference ? Point{} : piece.shift;
       shapes_[i] = SmoothPassage(known_of(piece, slab, way), {-way.x, -way.y});
     } else if (depths[i].depth > 0) {
-      shapes_[i] = SmoothEnd(slices, piece.lower.is_empty() ? 2 : 1, depths[i].place,
-                             depths[i].depth, piece.lean);
+      const Level level = piece.lower.is_empty() ? Level::upper : Level::lower;
+      shapes_[i] = SmoothEnd(slices, level == Level::lower ? 1 : 2, depths[i].place,
+                             depths[i].depth, piece.footprint(level).across, piece.lean);
     }
   }
 }

@@ -363,6 +363,54 @@ TEST(Smooth, AnEndIsAsHighAsItsTrendLeads) {
   EXPECT_NEAR(top, 10, 0.05);
 }
 
+/// A section of a spheroid around the origin that lies along x, 12 long and 4 wide and high to
+/// either side.
+Contour lying_spheroid(double z) {
+  Contour contour = stacks::circle(120, std::sqrt(16 - z * z));
+  for (cdt::Point& p : contour.points) p.x *= 3;
+  return contour;
+}
+
+// A part that is longer than wide ends as a spheroid does, not as a ridge. The rod beside it goes
+// on.
+TEST(Smooth, ALongEndGetsLowerTowardsItsFarEnds) {
+  std::vector<Slice> slices;
+  for (int i = 0; i < 6; ++i) {
+    const double z = 1.2 * i - 2;
+    slices.push_back({z, {stacks::circle(20, 1, {40, 0})}});
+    if (z < 4) slices.back().contours.push_back(lying_spheroid(z));
+  }
+  const double last = 2.8;
+  const Surface bent = make(slices, true);
+  EXPECT_EQ(solids::faults(bent), "");
+  double sum = 0;
+  double count = 0;
+  for (const auto v : bent.vertices()) {
+    const OpenMesh::Vec3d p = bent.point(v);
+    if (p[0] > 20 || p[2] <= last) continue;
+    sum += std::abs(p[2] - std::sqrt(16 - p[0] * p[0] / 9 - p[1] * p[1]));
+    ++count;
+  }
+  EXPECT_LT(sum / count, 0.03);
+}
+
+// A long hole is bent the same where it begins, however near the outline around it is there.
+TEST(Smooth, ALongHoleBendsAsItGoesWhereItBegins) {
+  const auto hole = [](double wide) {
+    std::vector<Slice> slices;
+    for (double z = -3; z <= 3; z += 1.2) {
+      Contour box = stacks::square(wide);
+      for (cdt::Point& p : box.points) p.x = std::copysign(20, p.x);
+      slices.push_back({z, {box}});
+      if (z > -2) slices.back().contours.push_back(lying_spheroid(z));
+    }
+    const Surface bent = reconstruct(slices, {.smooth = true, .smooth_tolerance = 0.01}).surface;
+    EXPECT_EQ(solids::faults(bent), "");
+    return 80 * wide * 6 - volume(bent);
+  };
+  EXPECT_NEAR(hole(5), hole(20), 1e-3);
+}
+
 // A hollow ball's last outline is around nothing; the one before it is around a hole. Its bottom
 // is half a slab below; beside it a rod goes on.
 TEST(Smooth, AnEndOfWhatIsHollowIsAsHighAsItsOutlinesLead) {
