@@ -21,6 +21,9 @@ constexpr double least_share = 0.02;
 constexpr double least_gradient = 0.2;
 constexpr int newton_steps = 3;
 
+/// In radii of a footprint: what is over it by less touches it but for rounding.
+constexpr double touch = 1e-6;
+
 /// The deepest known place of a part.
 struct Depth {
   Point place;
@@ -102,6 +105,7 @@ struct Beyond {
   const SliceShape* slice;
   const SliceShape* beyond;
   Point moved;
+  double reach;  // what is over by less only touches
 };
 
 /// Whether a way from a corner of an outline, between two edges, begins on the left of the outline.
@@ -121,9 +125,9 @@ bool goes_on(const Region& region, const Piece& piece, Level level, const Beyond
     const Point p = point(i);
     const auto [distance, outward, there] =
         to.beyond->distance.at({p.x + to.moved.x, p.y + to.moved.y});
-    if ((piece.is_solid ? -distance : distance) >= 0) return true;
+    if ((piece.is_solid ? -distance : distance) > to.reach) return true;
     const Point foot{there.x - to.moved.x, there.y - to.moved.y};
-    return to.slice->depth(piece.is_solid, foot) > 0 &&
+    return to.slice->depth(piece.is_solid, foot) > to.reach &&
            is_left(point(i + loop.size() - 1), p, point(i + 1), {foot.x - p.x, foot.y - p.y}) ==
                piece.is_solid;
   };
@@ -147,7 +151,7 @@ Surroundings known_of(const Piece& piece, const BentSlab& slab, Point way) {
     const Point moved{-share * way.x, -share * way.y};
     const double depth = beyond->depth(piece.is_solid, {middle.x + moved.x, middle.y + moved.y});
     if (depth > 0) return;
-    if (depth <= -radius || !goes_on(region, piece, level, {&slice, beyond, moved}))
+    if (depth <= -radius || !goes_on(region, piece, level, {&slice, beyond, moved, touch * radius}))
       beyond = nullptr;
   };
   look(known[0], *slab.slices[1], slab.lower, Level::lower);
